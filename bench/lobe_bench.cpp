@@ -49,8 +49,8 @@ void shade(benchmark::State& state, ModelId model, LobeId lobe, Precision precis
     const Vec3 l{points.to_light.x[i], points.to_light.y[i], points.to_light.z[i]};
     const Vec3 d = info(model).angle == LobeAngle::kReflection ? 2 * dot(n, v) * n - v - l
                                                                : n - normalize(l + v);
-    const double truth =
-        highlight_radiance(highlight, dot(n, l), dot(d, d) / 2) / radiance_coefficient(highlight);
+    const double truth = highlight_radiance(highlight, dot(n, l), dot(n, v), dot(d, d) / 2) /
+                         radiance_coefficient(highlight);
     const double allowed = precision == Precision::kFloat64 ? 1e-12 : 2e-5;
     if (std::abs(points.value[i] - truth) > allowed) state.SkipWithError("wrong result");
   }

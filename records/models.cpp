@@ -13,6 +13,7 @@ void define_model_tables(Tables& tables) {
       "Operations per point. What depends on the exponent alone is computed once.");
   tables.define<Model>("A reflection model.", [](auto& t) {
     t.key("angle", "what its lobe sees");
+    t.key("hasShadowing", "Smith's, in place of the implicit geometry (N.L)(N.V)");
     t.key("normalised", "what its coefficient makes 1");
   });
   tables.define<Lobe>("A lobe, measured at one exponent.", [](auto& t) {

@@ -15,7 +15,7 @@ struct Operations {
 
 struct Model {
   std::string name, title, angle;
-  bool applies_cosine = false;
+  bool applies_cosine = false, has_shadowing = false;
   std::string normalised, integral;
   Formulas coefficient;
   Operations operations;
@@ -68,7 +68,7 @@ struct TableErrors {
 
 struct ModelTable {
   std::string name, title, angle;
-  bool applies_cosine = false;
+  bool applies_cosine = false, has_shadowing = false;
   std::string normalised, coefficient;
 };
 

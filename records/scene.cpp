@@ -40,13 +40,17 @@ void define_scene_tables(Tables& tables) {
   });
   tables.define<SceneMaterial>(
       "Radiance per irradiance normal to the beam is F coefficient lobe(s, exponent), times N.L if "
-      "appliesCosine, plus diffuse N.L / pi. It is 0 where N.L <= 0.",
+      "appliesCosine and G / ((N.L) (N.V)) if hasShadowing, plus diffuse N.L / pi. It is 0 where N.L <= 0.",
       [](auto& t) {
         t.key("id", "from the scene file; for people").if_any();
         t.key("lobeFormula", "of s = 1 - cos(angle) and the exponent n; 0 where s >= 1");
         t.key("angle", "between L and the mirror direction of V, or between N and the half vector")
             .one_of(kLobeAngles);
         t.key("exponent").at_least(0);
+        t.key(
+            "hasShadowing",
+            "G = 1 / (1 + Lambda(N.L) + Lambda(N.V)) is Smith's for GGX: 2 Lambda(c) = sqrt(1 + alpha^2 (1 / c^2 - 1)) - 1, "
+            "alpha^2 = 2 / (exponent + 2)");
         t.key("coefficient", "the whole factor of the lobe").at_least(0);
         t.key("specular", "F, or the F0 of F = F0 + (1 - F0) (1 - V.H)^5 with the fresnel schlick");
         t.key("diffuse", "Lambertian albedo");

@@ -34,7 +34,7 @@ struct SceneLight {
 
 struct SceneMaterial {
   std::string id, model, lobe, normalisation, lobe_formula, angle;
-  bool applies_cosine = false;
+  bool applies_cosine = false, has_shadowing = false;
   double exponent = 0, coefficient = 0;
   Triple specular{}, diffuse{}, mirror{};
   std::string fresnel;

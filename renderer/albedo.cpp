@@ -18,7 +18,7 @@ namespace {
 constexpr double kNarrowestPiece = 1e-12;  ///< radians
 constexpr double kSame = 1e-9;             ///< smaller differences are rounding
 
-/// The integral of coefficient * lobe * (a factor of N.L) over all directions of one vector while the other stays.
+/// The integral of coefficient * lobe * (a factor of the moving cosine) over all directions of one vector while the other stays.
 /// Lobes treat light and eye alike, so either may move.
 ///
 /// The integral runs over the lobe's angle t and its azimuth p. With c and e the cosine and the sine of the
@@ -33,6 +33,7 @@ class HemisphereIntegral {
       : coefficient_(radiance_coefficient(h)),
         lobe_(prepare(h.lobe, h.exponent)),
         half_vector_(info(h.model).angle == LobeAngle::kHalfVector),
+        has_shadowing_(info(h.model).has_shadowing),
         width_(lobe_angle_at(lobe_, 0.5)),
         end_(lobe_angle_at(lobe_, 1e-20)) {}
 
@@ -60,6 +61,10 @@ class HemisphereIntegral {
       const double spread = half_vector_ ? 4 * (up_half + across_half * cosine) : 1;
       return spread * factor(up + across * cosine);
     };
+    // Shadowing changes within a cosine of alpha.
+    if (has_shadowing_)
+      return 2 * boost::math::quadrature::gauss_kronrod<double, 15>::integrate(integrand, 0.0, end,
+                                                                               8, 1e-11);
     // Smooth where it is not cut off: 15 points leave 1e-15 of a polynomial in the cosine.
     return 2 * boost::math::quadrature::gauss<double, 15>::integrate(integrand, 0.0, end);
   }
@@ -91,7 +96,7 @@ class HemisphereIntegral {
 
   double coefficient_;
   PreparedLobe lobe_;
-  bool half_vector_;
+  bool half_vector_, has_shadowing_;
   double width_, end_;
 };
 
@@ -133,34 +138,38 @@ AlbedoPeak peak(auto&& albedo) {
   return largest;
 }
 
-double seen(const HemisphereIntegral& integral, ModelId model, double incidence) {
-  return integral(incidence, [&](double n_dot_l) { return foreshortening(model, n_dot_l); });
+double seen(const HemisphereIntegral& integral, const Highlight& h, double incidence) {
+  const double n_dot_v = std::cos(incidence);
+  return integral(incidence, [&](double n_dot_l) {
+    return geometry_factor(h.model, h.exponent, n_dot_l, n_dot_v);
+  });
 }
 
-double of_light(const HemisphereIntegral& integral, ModelId model, double incidence) {
+double of_light(const HemisphereIntegral& integral, const Highlight& h, double incidence) {
   const double n_dot_l = std::cos(incidence);
-  return foreshortening(model, n_dot_l) / n_dot_l *
-         integral(incidence, [](double n_dot_v) { return n_dot_v; });
+  return integral(incidence, [&](double n_dot_v) {
+    return geometry_factor(h.model, h.exponent, n_dot_l, n_dot_v) / n_dot_l * n_dot_v;
+  });
 }
 
 }  // namespace
 
 double directional_albedo(const Highlight& h, double incidence) {
-  return seen(HemisphereIntegral(h), h.model, incidence);
+  return seen(HemisphereIntegral(h), h, incidence);
 }
 
 double directional_albedo_of_light(const Highlight& h, double incidence) {
-  return of_light(HemisphereIntegral(h), h.model, incidence);
+  return of_light(HemisphereIntegral(h), h, incidence);
 }
 
 AlbedoPeak largest_albedo(const Highlight& h) {
   const HemisphereIntegral integral(h);
-  return peak([&](double incidence) { return seen(integral, h.model, incidence); });
+  return peak([&](double incidence) { return seen(integral, h, incidence); });
 }
 
 AlbedoPeak largest_albedo_of_light(const Highlight& h) {
   const HemisphereIntegral integral(h);
-  return peak([&](double incidence) { return of_light(integral, h.model, incidence); });
+  return peak([&](double incidence) { return of_light(integral, h, incidence); });
 }
 
 double reciprocity_gap(const Highlight& highlight) {

@@ -20,6 +20,7 @@ records::Model model_record(ModelId id) {
   record.title = m.title;
   record.angle = angle_name(m.angle);
   record.applies_cosine = m.applies_cosine;
+  record.has_shadowing = m.has_shadowing;
   record.normalised = name(m.normalised);
   record.integral = m.integral;
   record.coefficient = {exact_formula(id), std::string(formulas(id).exact_cosine),
@@ -134,11 +135,8 @@ records::LobeTable lobe_table(LobeId lobe, std::span<const double> exponents) {
 
 records::ModelTable model_table(ModelId model) {
   const ModelInfo& m = info(model);
-  return {std::string(m.name),
-          std::string(m.title),
-          std::string(angle_name(m.angle)),
-          m.applies_cosine,
-          std::string(name(m.normalised)),
+  return {std::string(m.name), std::string(m.title), std::string(angle_name(m.angle)),
+          m.applies_cosine,    m.has_shadowing,      std::string(name(m.normalised)),
           exact_formula(model)};
 }
 

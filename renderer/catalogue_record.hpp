@@ -27,7 +27,7 @@ std::vector<double> table_exponents();
 /// The largest errors of a value interpolated by the polynomial through the exponents of its octave, over log2 n:
 /// of the value for curves and albedos, of its logarithm for widths, reaches and coefficients. Relative to the peak
 /// for curves, to the value for the others. A test checks them.
-inline constexpr double kCurveTableError = 5e-4, kAlbedoTableError = 2e-3, kWidthTableError = 1e-4,
+inline constexpr double kCurveTableError = 5e-4, kAlbedoTableError = 2e-3, kWidthTableError = 5e-4,
                         kCoefficientTableError = 1e-3;
 
 /// The largest error of the cubic through four neighbouring incidences, relative to the larger of 1 and the albedo.

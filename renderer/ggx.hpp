@@ -15,6 +15,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/models/smith.hpp"
+
 namespace lobelia {
 
 inline constexpr double kMinAlpha = 1e-4, kMaxAlpha = 1;
@@ -28,14 +30,8 @@ Real ggx_distribution(Real alpha, Real s) {
 }
 
 /// G / (4 (N.L) (N.V)), for cosines above 0.
-template <class Real>
-Real ggx_visibility(Real alpha, Real n_dot_l, Real n_dot_v) {
-  using std::sqrt;
-  const Real alpha2 = alpha * alpha;
-  const auto root = [&](Real cosine) -> Real {
-    return sqrt(alpha2 + (1 - alpha2) * cosine * cosine);
-  };
-  return Real(0.5) / (n_dot_l * root(n_dot_v) + n_dot_v * root(n_dot_l));
+inline double ggx_visibility(double alpha, double n_dot_l, double n_dot_v) {
+  return HWY_NAMESPACE::smith_factor(alpha * alpha, n_dot_l, n_dot_v) / 4;
 }
 
 }  // namespace lobelia

@@ -14,6 +14,7 @@
 #include "renderer/formula_lobe.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
+#include "renderer/models/smith.hpp"
 
 namespace lobelia {
 namespace {
@@ -296,14 +297,23 @@ Float32Error lobe_float32_error(const LobeId& lobe, double exponent) {
   return kLobeUses.at(lobe.index).float32_error({exponent, lobe});
 }
 
-double foreshortening(ModelId model, double n_dot_l) {
-  return info(model).applies_cosine ? n_dot_l : 1;
+double largest_shadowing(ModelId model, double exponent) {
+  // smith_factor() N.L is 2 / (root(N.V) + root(N.L) (N.V) / (N.L)), and no root is below alpha.
+  return info(model).has_shadowing ? 2 / std::sqrt(alpha_squared(exponent)) : 1;
 }
 
-double highlight_radiance(const Highlight& highlight, double n_dot_l, double s) {
+double geometry_factor(ModelId model, double exponent, double n_dot_l, double n_dot_v) {
+  const ModelInfo& of = info(model);
+  double factor = of.applies_cosine ? n_dot_l : 1;
+  if (of.has_shadowing)
+    factor *= HWY_NAMESPACE::smith_factor(alpha_squared(exponent), n_dot_l, n_dot_v);
+  return factor;
+}
+
+double highlight_radiance(const Highlight& highlight, double n_dot_l, double n_dot_v, double s) {
   if (!(n_dot_l > 0)) return 0;
   return radiance_coefficient(highlight) * lobe_value(highlight.lobe, s, highlight.exponent) *
-         foreshortening(highlight.model, n_dot_l);
+         geometry_factor(highlight.model, highlight.exponent, n_dot_l, n_dot_v);
 }
 
 }  // namespace lobelia

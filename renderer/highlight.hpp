@@ -71,6 +71,8 @@ struct ModelInfo {
   NormalisedQuantity normalised;
   std::string_view integral;  ///< the exact coefficient makes it 1
   std::string_view source;
+  /// Smith's shadowing and masking takes the place of the implicit geometry (N.L)(N.V), with GGX's alpha.
+  bool has_shadowing = false;
 };
 
 /// Coefficients as formulas of n, "(n + 1) / (2 pi)".
@@ -153,10 +155,16 @@ struct Float32Error {
 };
 Float32Error lobe_float32_error(const LobeId& lobe, double exponent);
 
-/// N.L where the model applies it, else 1; for N.L > 0.
-double foreshortening(ModelId model, double n_dot_l);
+/// GGX's alpha squared for an exponent: the width at which both have the same peak as a heightfield's distribution.
+constexpr double alpha_squared(double exponent) { return 2 / (exponent + 2); }
+/// The largest factor that shadowing puts on a lobe times N.L; at grazing angles. 1 for a model without.
+double largest_shadowing(ModelId model, double exponent);
 
-/// Radiance per unit irradiance normal to the beam, for unit vectors pointing away from the surface.
-double highlight_radiance(const Highlight& highlight, double n_dot_l, double s);
+/// What the model multiplies coefficient and lobe with, for cosines above 0: N.L where it applies that, else 1, and
+/// Smith's G / ((N.L) (N.V)) where it has shadowing.
+double geometry_factor(ModelId model, double exponent, double n_dot_l, double n_dot_v);
+
+/// Radiance per unit irradiance normal to the beam, for unit vectors pointing away from the surface; 0 where N.L <= 0.
+double highlight_radiance(const Highlight& highlight, double n_dot_l, double n_dot_v, double s);
 
 }  // namespace lobelia

@@ -3,6 +3,7 @@
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
+#include "renderer/models/smith.hpp"
 
 namespace lobelia {
 namespace {
@@ -157,6 +158,8 @@ OperationCount operations(ModelId model) {
         // An RDF needs only the sign of N.L.
         const Counted n_dot_l = dot(up, up);
         Counted value = s;
+        if constexpr (M::kInfo.has_shadowing)
+          value = value * HWY_NAMESPACE::smith_factor(0.5, n_dot_l, dot(up, up));
         if constexpr (M::kInfo.applies_cosine) value = value * n_dot_l;
         where_less(Counted(0), n_dot_l, value);
       });

@@ -25,8 +25,10 @@ double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
     const Material& m = scene.materials.at(std::size_t(index));
     const bool schlick = m.fresnel != Fresnel::kNone;
     const double specular = schlick ? 1 : max_component(m.specular_reflectance);
-    reflected = std::max(reflected, radiance_coefficient(m.highlight) * specular +
-                                        max_component(m.diffuse_reflectance) / std::numbers::pi);
+    const double highlight = radiance_coefficient(m.highlight) *
+                             largest_shadowing(m.highlight.model, m.highlight.exponent);
+    reflected = std::max(
+        reflected, highlight * specular + max_component(m.diffuse_reflectance) / std::numbers::pi);
     mirrored = std::max(mirrored, schlick ? mirror_at_grazing(m.mirror_reflectance)
                                           : max_component(m.mirror_reflectance));
   };

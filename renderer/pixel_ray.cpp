@@ -106,7 +106,9 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
         here->irradiance *
         fresnel_factor(material.fresnel, material.specular_reflectance, to_eye, to_light);
     map.irradiance[i] = (reflected.r + reflected.g + reflected.b) / 3;
-    map.scale[i] = foreshortening(material.highlight.model, map.n_dot_l[i]) * map.irradiance[i];
+    map.scale[i] = geometry_factor(material.highlight.model, material.highlight.exponent,
+                                   map.n_dot_l[i], map.n_dot_v[i]) *
+                   map.irradiance[i];
     map.reflection[i] = angle_between(2 * map.n_dot_v[i] * hit.normal - to_eye, to_light);
     map.half_vector[i] = angle_between(hit.normal, normalize(to_light + to_eye));
     map.angle[i] = lobe_angle == LobeAngle::kReflection ? map.reflection[i] : map.half_vector[i];

@@ -45,9 +45,9 @@ struct HighlightMap {
   std::vector<double> half_vector;  ///< between the normal and the half vector
   std::vector<double> n_dot_l;      ///< cosine at the light's side
   std::vector<double> n_dot_v;      ///< cosine at the eye's side
-  std::vector<double> irradiance;   ///< `scale` without the foreshortening
+  std::vector<double> irradiance;   ///< `scale` without the geometry factor
   /// Radiance over coefficient * lobe, as the mean of R, G and B: irradiance, reflectance with its Fresnel factor,
-  /// and foreshortening.
+  /// and the model's geometry factor.
   std::vector<double> scale;
   std::vector<double> solid_angle;  ///< of the pixel as seen from the camera, steradian; never NaN
 };

@@ -48,8 +48,9 @@ Rgb Reflector::eval(const Directions& d, double s) const {
   const double n_dot_l = dot(d.normal, d.to_light);
   const Rgb diffuse = n_dot_l * std::numbers::inv_pi * material_.diffuse_reflectance;
   if (!has_highlight_) return diffuse;
-  const double value =
-      coefficient_ * lobe_.value(s) * foreshortening(material_.highlight.model, n_dot_l);
+  const double value = coefficient_ * lobe_.value(s) *
+                       geometry_factor(material_.highlight.model, material_.highlight.exponent,
+                                       n_dot_l, dot(d.normal, d.to_eye));
   return value * fresnel_factor(material_.fresnel, material_.specular_reflectance, d.to_eye,
                                 d.to_light) +
          diffuse;

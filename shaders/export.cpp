@@ -20,7 +20,7 @@
 namespace lobelia {
 namespace embedded {
 extern const std::string_view gpu_head, gpu_geometry, gpu_geometry_half, gpu_lobe, gpu_energy,
-    gpu_coefficient, gpu_fresnel, gpu_highlight;
+    gpu_coefficient, gpu_fresnel, gpu_smith, gpu_highlight;
 }
 namespace {
 
@@ -119,6 +119,7 @@ class Writer {
                       info(highlight.lobe).name));
     add_lobe(highlight.lobe, half_);
     if (fresnel_) add_part("lobelia_fresnel", embedded::gpu_fresnel, half_);
+    if (info(highlight.model).has_shadowing) add_part("lobelia_smith", embedded::gpu_smith, half_);
     const std::string with_coefficient = function_name(highlight, fixed_),
                       function = function_name(highlight, fixed_, fresnel_);
     if (!fixed_ && !formula.empty()) add_coefficient(highlight, with_coefficient, formula);
@@ -218,7 +219,9 @@ class Writer {
           heading(highlight) + (fixed_ ? fmt::format(", n = {}", highlight.exponent) : "")},
          {"model_source", model.source},
          {"angle", mirror ? "L and the mirror image of V" : "N and the half vector of L and V"},
-         {"times_cosine", cosine ? " * N.L" : ""},
+         {"times_cosine", model.has_shadowing ? " * G / (N.V)"
+                          : cosine            ? " * N.L"
+                                              : ""},
          {"cosine_note", cosine ? "N.L is in it: do not multiply by it again."
                                 : "There is no N.L in it, by definition: do not multiply by it."},
          {"normalisation_note", normalisation_note(highlight)},
@@ -234,7 +237,12 @@ class Writer {
          {"right_angle", half_ ? "1024" : "1"},
          {"scale", half_ ? "1024 (" : ""},
          {"scale_end", half_ ? ")" : ""},
-         {"factor", cosine ? " * n_dot_l" : ""},
+         {"factor", model.has_shadowing
+                        ? fmt::format("\n            * lobelia_smith({}, n_dot_l, dot({}, to_eye))",
+                                      fixed_ ? float32_text(highlight.exponent) : "exponent",
+                                      language_.normal)
+                    : cosine ? " * n_dot_l"
+                             : ""},
          {"fresnel", fresnel_ ? " * lobelia_fresnel(reflectance, to_eye, to_light)" : ""},
          {"function", function}});
   }

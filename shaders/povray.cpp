@@ -57,7 +57,8 @@ std::string coefficient_text(const Highlight& highlight) {
 
 std::string usage_text(const Highlight& highlight) {
   const PovrayNames names = povray_names(highlight);
-  const bool cosine = info(highlight.model).applies_cosine;
+  const ModelInfo& model = info(highlight.model);
+  const bool cosine = model.applies_cosine && !model.has_shadowing;
   return fill(embedded::povray_usage,
               {{"heading", heading(highlight)},
                {"version", kNameAndVersion},
@@ -65,22 +66,34 @@ std::string usage_text(const Highlight& highlight) {
                {"file", names.file},
                {"Name", names.pattern},
                {"brilliance", cosine ? "1" : "0"},
-               {"finish", cosine ? "1: N.L is in the model" : "0: there is no N.L in the model"}});
+               {"finish", cosine                ? "1: N.L is in the model"
+                          : model.has_shadowing ? "0: N.L is in the pattern"
+                                                : "0: there is no N.L in the model"}});
 }
 
 std::string highlight_text(const Highlight& highlight) {
   const PovrayNames names = povray_names(highlight);
-  return fill(embedded::povray_highlight,
-              {{"heading", heading(highlight)},
-               {"model_source", info(highlight.model).source},
-               {"lobe_source", info(highlight.lobe).source},
-               {"Name", names.pattern},
-               {"Model", capitalised(info(highlight.model).name)},
-               {"Lobe", capitalised(identifier(highlight.lobe))},
-               {"coefficient", coefficient_text(highlight)},
-               {"cosine", info(highlight.model).applies_cosine
-                              ? "times N.L, which `brilliance 1` brings"
-                              : "without N.L, which `brilliance 0` keeps out"}});
+  const ModelInfo& about = info(highlight.model);
+  const bool shadowing = about.has_shadowing;
+  const std::string model = capitalised(about.name);
+  return fill(
+      embedded::povray_highlight,
+      {{"heading", heading(highlight)},
+       {"model_source", about.source},
+       {"lobe_source", info(highlight.lobe).source},
+       {"Name", names.pattern},
+       {"Model", model},
+       {"Lobe", capitalised(identifier(highlight.lobe))},
+       {"coefficient",
+        shadowing ? fmt::format("Lobelia_{}_Highest(N)*{}", model, coefficient_text(highlight))
+                  : coefficient_text(highlight)},
+       {"shadowing", shadowing ? fmt::format("\n         *Lobelia_{}_Geometry(Nx, Ny, Nz, Lx, Ly, "
+                                             "Lz, Vx, Vy, Vz, N)",
+                                             model)
+                               : ""},
+       {"cosine", shadowing              ? "which has N.L: `brilliance 0` keeps a second one out"
+                  : about.applies_cosine ? "times N.L, which `brilliance 1` brings"
+                                         : "without N.L, which `brilliance 0` keeps out"}});
 }
 
 }  // namespace

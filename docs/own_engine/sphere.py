@@ -17,6 +17,13 @@ def normalised(a):
     return [x / length for x in a]
 
 
+def shadowing(n, n_dot_l, n_dot_v):
+    """Smith's G / ((N.L)(N.V)) for GGX."""
+    def twice_lambda(c):
+        return math.sqrt(1 + 2 / (n + 2) * (1 / c**2 - 1)) - 1
+    return 1 / ((1 + twice_lambda(n_dot_l) / 2 + twice_lambda(n_dot_v) / 2) * n_dot_l * n_dot_v)
+
+
 def radiance(material, lights, normal, to_eye):
     """Of the highlight alone: coefficient x cos^n (angle), grey."""
     total = 0
@@ -31,7 +38,11 @@ def radiance(material, lights, normal, to_eye):
         else:
             angle = 2 * cosine * dot(normal, to_eye) - dot(to_light, to_eye)
         value = material["coefficient"] * max(angle, 0) ** material["exponent"]
-        total += value * light["strength"][0] * (cosine if material["appliesCosine"] else 1)
+        if material["appliesCosine"]:
+            value *= cosine
+        if material["hasShadowing"]:
+            value *= shadowing(material["exponent"], cosine, dot(normal, to_eye))
+        total += value * light["strength"][0]
     return total * material["specular"][0]
 
 

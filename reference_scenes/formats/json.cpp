@@ -72,6 +72,7 @@ records::SceneMaterial material_record(const Material& material) {
   record.lobe_formula = info(highlight.lobe).formula;
   record.angle = model.angle == LobeAngle::kReflection ? "reflection" : "halfVector";
   record.applies_cosine = model.applies_cosine;
+  record.has_shadowing = model.has_shadowing;
   record.exponent = highlight.exponent;
   record.coefficient = radiance_coefficient(highlight);
   record.specular = triple(material.specular_reflectance);

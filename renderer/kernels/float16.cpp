@@ -24,7 +24,8 @@ void shade_in_half_floats(const Highlight& highlight, std::size_t count, const V
     specular[i] = 0;
     if (!(n_dot_l > 0)) continue;
     const Half s = HWY_NAMESPACE::one_minus_cos<M::kInfo.angle, Half>(Half3(n), Half3(v), Half3(l));
-    specular[i] = double(lobe.value(s)) * (M::kInfo.applies_cosine ? n_dot_l : 1);
+    specular[i] = double(lobe.value(s)) *
+                  geometry_factor(highlight.model, highlight.exponent, n_dot_l, dot(n, v));
   }
 }
 

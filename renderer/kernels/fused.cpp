@@ -18,6 +18,7 @@
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
+#include "renderer/models/smith.hpp"
 
 /// For a lambda that is inlined into its caller's loop, with the caller's instructions.
 #ifndef LOBELIA_INLINE
@@ -52,7 +53,7 @@ struct Stretch {
   Vectors to_eye;
   Vectors normal;  ///< 0 where the sphere is not seen, so that no light is reflected
   Values s, n_dot_l;
-  Values value;  ///< of the lobe
+  Values value;  ///< of the lobe, times shadowing
   HWY_ALIGN float s32[kStretch + 16];
   Vectors to_light;  ///< of a point light
   Values falloff;    ///< of a point light
@@ -150,6 +151,14 @@ void find_angles(const FusedLight& light, int count, Stretch& stretch) {
         stretch.s.store(j, high);
       }
     }
+  }
+}
+
+void apply_shadowing(double alpha_squared, int count, Stretch& stretch) {
+  for (int i = 0; i < count; i += int(Lanes::count())) {
+    const Lanes n_dot_v = dot(stretch.normal.load(i), stretch.to_eye.load(i));
+    stretch.value.store(
+        i, stretch.value.load(i) * smith_factor(alpha_squared, stretch.n_dot_l.load(i), n_dot_v));
   }
 }
 
@@ -351,6 +360,7 @@ class Kernel final : public FusedKernel {
     for (const FusedLight& light : sphere.lights)
       find_angles_.push_back(angles[std::size_t(sphere.precision)][light.is_directional]);
     const auto& colours = sphere.lights.size() == 1 ? kColours<true> : kColours<false>;
+    has_shadowing_ = model.has_shadowing;
     colour_ = colours[model.applies_cosine][sphere.diffuse][sphere.fresnel];
   }
 
@@ -377,6 +387,8 @@ class Kernel final : public FusedKernel {
       if (!light.is_directional) reach_point_light(sphere_, light, whole, stretch);
       find_angles_[l](light, whole, stretch);
       evaluate_lobe_(whole, stretch);
+      if (has_shadowing_)
+        apply_shadowing(alpha_squared(sphere_.highlight.exponent), whole, stretch);
       if (sphere_.fresnel) find_fresnel(light, whole, stretch);
       colour_(light, lights == 1 ? count : whole, {l == 0, adds, rgb}, stretch);
     }
@@ -397,6 +409,7 @@ class Kernel final : public FusedKernel {
   FusedSphere sphere_;
   std::vector<FindAngles> find_angles_;
   EvaluateLobe evaluate_lobe_;
+  bool has_shadowing_;
   Colour colour_;
 };
 

@@ -17,6 +17,7 @@
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
+#include "renderer/models/smith.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -65,11 +66,11 @@ struct Shader {
     for (std::size_t i = 0; i < count; i += Lanes::count()) {
       const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
       const Lanes s = one_minus_cos<M::kInfo.angle, Lanes>(n, v, l);
-      store_lit(dot(n, l), lobe.value(s), specular + i);
+      store_lit(highlight, n, v, l, lobe.value(s), specular + i);
     }
   }
 
-  /// N.L stays float64, so that every precision has the same terminator and no product of two small float32 is
+  /// N.L and shadowing stay float64, so that every precision has the same terminator and no product of two small float32 is
   /// subnormal.
   template <bool mixed>
   static void narrow_lobe(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
@@ -85,13 +86,17 @@ struct Shader {
         s = one_minus_cos<M::kInfo.angle, Lanes32>(n.rounded(), v.rounded(), l.rounded());
       Lanes low, high;
       widen(lobe.value(s), low, high);
-      store_lit(dot(n.low, l.low), low, specular + i);
-      store_lit(dot(n.high, l.high), high, specular + i + Lanes::count());
+      store_lit(highlight, n.low, v.low, l.low, low, specular + i);
+      store_lit(highlight, n.high, v.high, l.high, high, specular + i + Lanes::count());
     }
   }
 
  private:
-  static HWY_INLINE void store_lit(Lanes n_dot_l, Lanes value, double* specular) {
+  static HWY_INLINE void store_lit(const Highlight& highlight, Lanes3 n, Lanes3 v, Lanes3 l,
+                                   Lanes value, double* specular) {
+    const Lanes n_dot_l = dot(n, l);
+    if constexpr (M::kInfo.has_shadowing)
+      value = value * smith_factor(alpha_squared(highlight.exponent), n_dot_l, dot(n, v));
     // Also 0 where there is no half vector (L = -V): N.L and N.V are never both positive there.
     if constexpr (M::kInfo.applies_cosine) value = value * n_dot_l;
     where_less(Lanes(0.0), n_dot_l, value).store(specular);

@@ -21,7 +21,7 @@ struct KernelTable {
                      std::size_t count, const Vec3Chunk& point, const Vec3Chunk& to_light,
                      const double* distance, double* visible);
 
-  /// Lobe times foreshortening: radiance per unit irradiance without the coefficient, 0 where N.L <= 0.
+  /// Lobe times geometry_factor(): radiance per unit irradiance without the coefficient, 0 where N.L <= 0.
   using Shade = void (*)(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                          const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular);
   Shade (*shade)(const Highlight& highlight, Precision precision);

@@ -11,6 +11,7 @@
 #include "renderer/lobes/cs.hpp"
 #include "renderer/lobes/expression.hpp"
 #include "renderer/lobes/gauss.hpp"
+#include "renderer/lobes/ggx.hpp"
 #include "renderer/lobes/pk.hpp"
 #include "renderer/lobes/schlick.hpp"
 #include "renderer/lobes/spherical_gaussian.hpp"
@@ -19,7 +20,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
-using Lobes = TypeList<CosineLobe, CsLobe, SphericalGaussianLobe, GaussLobe, SchlickLobe, PkLobe>;
+using Lobes =
+    TypeList<CosineLobe, CsLobe, SphericalGaussianLobe, GaussLobe, SchlickLobe, PkLobe, GgxLobe>;
 
 template <class... Ls>
 TypeList<Ls..., ExpressionLobe> with_formulas(TypeList<Ls...>);

@@ -10,6 +10,7 @@
 #include "renderer/models/blinn_phong_heightfield.hpp"
 #include "renderer/models/blinn_phong_ndf.hpp"
 #include "renderer/models/blinn_phong_rdf.hpp"
+#include "renderer/models/microfacet_smith.hpp"
 #include "renderer/models/modified_blinn_phong.hpp"
 #include "renderer/models/modified_phong.hpp"
 #include "renderer/models/phong_rdf.hpp"
@@ -19,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 using Models = TypeList<PhongRdf, ModifiedPhong, BlinnPhongRdf, ModifiedBlinnPhong, BlinnPhongNdf,
-                        BlinnPhongHeightfield>;
+                        BlinnPhongHeightfield, MicrofacetSmith>;
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -2,7 +2,8 @@
 // energy 1 at normal incidence.
 //
 //   radiance per unit irradiance normal to the beam
-//     = kShare * coefficient * lobe(s, n) * (N.L, unless it is an RDF),   0 where N.L <= 0
+//     = kShare * coefficient * lobe(s, n) * (N.L, unless it is an RDF)
+//       * (Smith's G / ((N.L) (N.V)), where the model has shadowing),   0 where N.L <= 0
 //
 // Compiled once for each instruction set, as lobes are (renderer/lobes/lobe.hpp).
 #pragma once

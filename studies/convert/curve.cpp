@@ -29,7 +29,8 @@ std::function<double(double)> catalogue_radiance(ModelId model, double exponent)
   const double share = info(model).angle == LobeAngle::kHalfVector ? 0.5 : 1;
   return [=, coefficient = radiance_coefficient({model, cosine, Normalisation::kExact, exponent}),
           lobe = prepare(cosine, exponent).value](double angle) {
-    return coefficient * lobe(versine(share * angle));
+    return coefficient * lobe(versine(share * angle)) *
+           geometry_factor(model, exponent, 1, std::cos(angle));
   };
 }
 

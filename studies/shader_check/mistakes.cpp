@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/half.hpp"
+#include "renderer/models/smith.hpp"
 
 namespace lobelia::shader_check {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 bool has_cosine(const Highlight& h) { return info(h.model).applies_cosine; }
+bool has_shadowing(const Highlight& h) { return info(h.model).has_shadowing; }
 bool has_no_cosine(const Highlight& h) { return !has_cosine(h); }
 bool is_mirror(const Highlight& h) { return info(h.model).angle == LobeAngle::kReflection; }
 bool is_half(const Highlight& h) { return !is_mirror(h); }
@@ -28,6 +30,9 @@ std::vector<Mistake> make_mistakes() {
        [](Formula& f, double) { f.cosines = 2; }},
       {"cosine-applied", kCosine, "the cosine N.L is applied, which this model does not have",
        has_no_cosine, [](Formula& f, double) { f.cosines = 1; }},
+      {"shadowing-missing", kCosine,
+       "the shadowing is missing: the geometry term is (N.L)(N.V), which cancels", has_shadowing,
+       [](Formula& f, double) { f.has_shadowing = false; }},
       {"light-behind", kBehind,
        "light leaks through from behind: there is no test of N.L > 0 or the like", nullptr,
        [](Formula& f, double) { f.behind = Behind::kSigned; }},
@@ -215,6 +220,7 @@ Formula formula_of(const Highlight& highlight, double n, std::span<const Mistake
   Formula formula{.angle = info(highlight.model).angle,
                   .lobe = highlight.lobe,
                   .cosines = info(highlight.model).applies_cosine ? 1 : 0,
+                  .has_shadowing = info(highlight.model).has_shadowing,
                   .exponent = n};
   for (const Mistake* mistake : made) mistake->change(formula, n);
   formula.exponent = std::clamp(formula.exponent, kMinExponent, kMaxExponent);
@@ -236,6 +242,9 @@ double shape_value(const Formula& formula, const Geometry& g) {
   else if (s < 1)
     lobe = lobe_value(formula.lobe, s, formula.exponent);
   const double light = formula.behind == Behind::kAbsolute ? std::abs(g.n_dot_l) : g.n_dot_l;
+  if (formula.has_shadowing)
+    lobe *= HWY_NAMESPACE::smith_factor(alpha_squared(formula.exponent), std::abs(g.n_dot_l),
+                                        std::abs(g.n_dot_v));
   if (formula.factor) return lobe * formula.factor(g);
   return lobe * std::pow(light, formula.cosines);
 }

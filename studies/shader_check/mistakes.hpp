@@ -19,7 +19,8 @@ struct Formula {
   LobeAngle angle;
   LobeId lobe;
   int cosines = 0;                                   ///< the power of N.L
-  double exponent = 1;                               ///< of the lobe
+  bool has_shadowing = false;                        ///< Smith's, on top of the power of N.L
+  double exponent = 1;                               ///< of lobe and shadowing
   double (*lobe_cosine)(const Geometry&) = nullptr;  ///< in place of the angle's own
   bool mirrored = false;                        ///< the lobe sees the absolute value of its cosine
   double (*factor)(const Geometry&) = nullptr;  ///< in place of the power of N.L

@@ -175,7 +175,7 @@ double model_radiance(const Highlight& highlight, double coefficient, const Geom
   const double s =
       info(highlight.model).angle == LobeAngle::kReflection ? geometry.s_mirror : geometry.s_half;
   return coefficient * lobe_value(highlight.lobe, s, highlight.exponent) *
-         foreshortening(highlight.model, geometry.n_dot_l);
+         geometry_factor(highlight.model, highlight.exponent, geometry.n_dot_l, geometry.n_dot_v);
 }
 
 bool is_at_an_edge(const Highlight& highlight, const Geometry& geometry) {

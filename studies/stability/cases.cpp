@@ -147,7 +147,8 @@ Rows density_rows(LobeId lobe) {
       const double truth = density(s);
       const float cosine = float(1 - s);
       const float naive =
-          cosine > 0 ? naive::lobe(lobe, cosine, n) * draw_factor(lobe, cosine) * float(peak) : 0;
+          cosine > 0 ? naive::lobe(lobe, cosine, n) * draw_factor(lobe, cosine, n) * float(peak)
+                     : 0;
       rows.push_back(judged("density", fmt::format("n s = {}", nats), {lobe, n}, truth,
                             judge(naive, truth, peak), judge(ours(s), truth, peak), kDensityBound));
       if (!(rows.back().ours.value >= 0)) rows.back().outcome = kOutside;

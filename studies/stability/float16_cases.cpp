@@ -16,13 +16,12 @@ constexpr int kHalfFloatChunks = 8;
 
 /// The vectors with the largest error, by the screened truth.
 struct WorstInHalf {
-  double error = -1, value = 0, bound = 0;
+  double error = -1, value = 0, bound = 0, peak = 1;
   Triple at;
 };
 
 Row float16_row(const Highlight& h) {
   const LobeAngle angle = info(h.model).angle;
-  const bool cosine = info(h.model).applies_cosine;
   double bounds[kHalvings];
   for (int halvings = 0; halvings < kHalvings; ++halvings)
     bounds[halvings] = shading_error_bound(Precision::kFloat16, h, std::exp2(-halvings));
@@ -34,13 +33,15 @@ Row float16_row(const Highlight& h) {
     alignas(64) double value[kChunk];
     float16_shade(h)(h, kChunk, chunk->normal, chunk->to_eye, chunk->to_light, value);
     for (std::size_t i = 0; i < kChunk; ++i) {
-      const double bound = bounds[chunk->halvings[i]];
-      const auto truth = double(screened_lobe(h.lobe, chunk->s[i], h.exponent) *
-                                (cosine ? chunk->n_dot_l[i] : 1.0L));
+      const Factor by = factor(h, chunk->n_dot_l[i], chunk->n_dot_v[i]);
+      const auto lobe = double(screened_lobe(h.lobe, chunk->s[i], h.exponent));
+      const double bound = by.bound(bounds[chunk->halvings[i]], lobe), peak = by.peak();
+      const auto truth = double(lobe * by.value);
       const Triple& at = chunk->directions[i];
       const auto note = [&](WorstInHalf& worst, double given, double part) {
-        const double error = std::isfinite(given) ? std::abs(given - truth) * part : kInfinity;
-        if (error > worst.error) worst = {error, given, bound, at};
+        const double error =
+            std::isfinite(given) ? std::abs(given - truth) / peak * part : kInfinity;
+        if (error > worst.error) worst = {error, given, bound, peak, at};
       };
       // A bound of the whole peak excludes nothing: any other vector is worse.
       note(ours, value[i], bound < 1 ? 1 / bound : 0);
@@ -55,7 +56,8 @@ Row float16_row(const Highlight& h) {
   };
   const double truth = truth_at(ours.at);
   return judged("float16", fmt::format("n = {:g}", h.exponent), Subject(h), truth,
-                judge(naive.value, truth_at(naive.at), 1), judge(ours.value, truth, 1), ours.bound);
+                judge(naive.value, truth_at(naive.at), naive.peak),
+                judge(ours.value, truth, ours.peak), ours.bound);
 }
 
 }  // namespace

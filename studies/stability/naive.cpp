@@ -30,6 +30,7 @@ constexpr ClosedForm kClosedForms[] = {
      [](float n) { return (n + 2) * (n + 4) / (8 * kPi * (std::pow(2.0f, -n / 2) + n)); }},
     {"blinn_phong_ndf", [](float n) { return (n + 1) / (8 * kPi); }},
     {"blinn_phong_heightfield", [](float n) { return (n + 2) / (8 * kPi); }},
+    {"microfacet_smith", [](float n) { return (n + 2) / (8 * kPi); }},
 };
 
 float by_quadrature(const Highlight& h, const truth::ModelRow& model) {
@@ -57,7 +58,10 @@ Number unit_shape(const Highlight& highlight, const truth::Vector<Number>& n,
                             : dot(n, normalize(l + v));
   const Number value =
       cosine > Number(0) ? lobe_definition(highlight.lobe, cosine, highlight.exponent) : Number(0);
-  return model.applies_cosine ? value * n_dot_l : value;
+  const Number n_dot_v = dot(n, v);
+  if (model.has_shadowing && n_dot_v <= Number(0)) return Number(0);
+  return value *
+         truth::geometry(truth::model_row(highlight.model), highlight.exponent, n_dot_l, n_dot_v);
 }
 
 constexpr float kEpsilon = 1e-4f;

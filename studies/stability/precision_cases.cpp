@@ -19,7 +19,7 @@ constexpr Precision kPrecisions[] = {Precision::kFloat32, Precision::kMixed, Pre
 struct Worst {
   double of_bound = -1;
   Triple at;
-  double value = 0, bound = 0;
+  double value = 0, bound = 0, peak = 1;
 };
 
 /// One model at one exponent in every precision.
@@ -36,24 +36,33 @@ class Trial {
 
   /// `lobe` has the lobe's true values at the chunk's vectors.
   void shade(const Chunk& chunk, const long double* lobe, bool with_naive) {
-    const bool cosine = info(highlight_.model).applies_cosine;
+    Factor factors[kChunk];
     long double truth[kChunk];
-    for (std::size_t i = 0; i < kChunk; ++i)
-      truth[i] = lobe[i] * (cosine ? chunk.n_dot_l[i] : 1.0L);
+    for (std::size_t i = 0; i < kChunk; ++i) {
+      factors[i] = factor(highlight_, chunk.n_dot_l[i], chunk.n_dot_v[i]);
+      truth[i] = lobe[i] * factors[i].value;
+    }
     for (std::size_t p = 0; p < 3; ++p) {
       alignas(64) double value[kChunk];
       kernels().shade(highlight_, kPrecisions[p])(highlight_, kChunk, chunk.normal, chunk.to_eye,
                                                   chunk.to_light, value);
       for (std::size_t i = 0; i < kChunk; ++i) {
-        const double error = double(std::abs(value[i] - truth[i]));
+        const double peak = factors[i].peak();
+        const double error = double(std::abs(value[i] - truth[i])) / peak;
         const int halvings = chunk.halvings[i];
+        const auto bound_of = [&](double of_lobe) {
+          return factors[i].bound(of_lobe, double(lobe[i]));
+        };
         const double bound = bounds_[p][halvings];
-        note(by_precision[p], error, bound, value[i], chunk.directions[i]);
+        const auto note_here = [&](Worst& worst, double of_lobe) {
+          note(worst, error, {0, chunk.directions[i], value[i], bound_of(of_lobe), peak});
+        };
+        note_here(by_precision[p], bound);
         if (chosen_[halvings] != kPrecisions[p]) continue;
         if (bound <= kAllowedShadingError)
-          note(as_chosen, error, kAllowedShadingError, value[i], chunk.directions[i]);
+          note_here(as_chosen, kAllowedShadingError);
         else
-          note(beyond_float64, error, bound, value[i], chunk.directions[i]);
+          note_here(beyond_float64, bound);
       }
     }
     if (with_naive)
@@ -61,7 +70,7 @@ class Trial {
         const Triple& d = chunk.directions[i];
         const double value = naive::shape(highlight_, d.normal, d.to_eye, d.to_light);
         const double error = double(std::abs(value - truth[i]));
-        note(by_naive, std::isfinite(error) ? error : 1e300, 1, value, d);
+        note(by_naive, std::isfinite(error) ? error : 1e300, {0, d, value, 1});
       }
   }
 
@@ -72,8 +81,8 @@ class Trial {
     };
     const double truth = truth_at(worst.at);
     return judged("precision", name, Subject(highlight_), truth,
-                  judge(by_naive.value, truth_at(by_naive.at), 1), judge(worst.value, truth, 1),
-                  worst.bound);
+                  judge(by_naive.value, truth_at(by_naive.at), 1),
+                  judge(worst.value, truth, worst.peak), worst.bound);
   }
 
   Worst by_precision[3], as_chosen, by_naive;
@@ -81,10 +90,10 @@ class Trial {
       beyond_float64;  ///< where not even float64 promises kAllowedShadingError (docs/numerics.md)
 
  private:
-  static void note(Worst& worst, double error, double bound, double value, const Triple& at) {
+  static void note(Worst& worst, double error, Worst here) {
     // A bound of the whole peak excludes nothing: any other vector is worse.
-    const double part = bound < 1 || !std::isfinite(error) ? error / bound : 0;
-    if (part > worst.of_bound) worst = {part, at, value, bound};
+    here.of_bound = here.bound < 1 || !std::isfinite(error) ? error / here.bound : 0;
+    if (here.of_bound > worst.of_bound) worst = here;
   }
 
   Highlight highlight_;

@@ -118,8 +118,10 @@ Row compare_pictures(const Framing& framing, const Highlight& highlight) {
   const Image image = render(scene, {}).image;
   const auto naive = naive::picture(scene);
   const auto truth = framing.truth.highlights(highlight);
-  const double peak = truth::coefficient(highlight.model, highlight.lobe, highlight.exponent) *
-                      framing.truth.peak();
+  double peak = truth::coefficient(highlight.model, highlight.lobe, highlight.exponent) *
+                framing.truth.peak();
+  // With shadowing the highlight is higher at grazing angles.
+  for (const Rgb& pixel : truth) peak = std::max(peak, max_component(pixel));
   WorstPixel of_ours, of_naive;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     of_ours.note(image.values()[3 * i], truth[i].r, peak);

@@ -60,14 +60,16 @@ std::vector<Case> cases(double n) {
 }
 
 /// The stated bound, which covers all angles, narrowed for these vectors. With the light at the horizon or below it, the
-/// cosine limits the error. Where the bound excludes nothing, float64 was chosen: the change of the lobe at this angle
+/// cosine limits the error, and with shadowing the factor of the cosines. Where the bound excludes nothing, float64 was chosen: the change of the lobe at this angle
 /// by float64's roundings of the vectors (docs/numerics.md; twice those, because Reflector normalises first).
-double bound_here(double stated, const Highlight& h, const ScreenedVectors& v) {
+double bound_here(double stated, const Highlight& h, const ScreenedVectors& v, const Factor& by) {
   constexpr double kUnit = 0x1p-53;
   const auto cosine = static_cast<double>(v.n_dot_l);
   const ModelInfo& model = info(h.model);
   // N.L has four roundings at most.
-  if (model.applies_cosine || cosine < -4 * kUnit)
+  if (model.has_shadowing)
+    stated = std::min(stated, (double(by.value) + by.error) / by.peak());
+  else if (model.applies_cosine || cosine < -4 * kUnit)
     stated = std::min(stated, std::max(0.0, cosine) + 4 * kUnit);
   if (stated < 1) return stated;
   const double roundings =
@@ -91,22 +93,27 @@ Rows vector_rows(LobeId lobe) {
       for (const auto& [name, at] : cases(n)) {
         const ScreenedVectors v = screen(info(model).angle, at);
         const double shape = truth::shape(h, at.normal, at.to_eye, at.to_light);
+        const Factor by = factor(h, v.n_dot_l, v.n_dot_v);
+        const double lobe = truth::lobe(h.lobe, double(v.s), n), peak = by.peak();
         const bool seen = dot(v.normal, v.to_eye) > 0;
         const double naive = naive::shape(h, at.normal, at.to_eye, at.to_light);
 
         const double reflected = seen ? shape : 0;
         rows.push_back(judged(
-            "vectors", name + " (Reflector)", Subject(h), reflected, judge(naive, reflected, 1),
-            judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, reflected, 1),
-            bound_here(2 * shading_error_bound(Precision::kFloat64, h, v.half_length), h, v)));
+            "vectors", name + " (Reflector)", Subject(h), reflected, judge(naive, reflected, peak),
+            judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, reflected,
+                  peak),
+            by.bound(bound_here(2 * shading_error_bound(Precision::kFloat64, h, v.half_length), h,
+                                v, by),
+                     lobe)));
         const double pdf = reflector.pdf(at.normal, at.to_eye, at.to_light);
         if (!(std::isfinite(pdf) && pdf >= 0)) rows.back().outcome = kOutside;
         if (!seen) continue;  // the kernels are given only what the camera sees
 
         double bound = 0;
-        const Answer ours = judge(by_kernel(h, v, bound), shape, 1);
-        rows.push_back(judged("vectors", name, Subject(h), shape, judge(naive, shape, 1), ours,
-                              bound_here(bound, h, v)));
+        const Answer ours = judge(by_kernel(h, v, bound), shape, peak);
+        rows.push_back(judged("vectors", name, Subject(h), shape, judge(naive, shape, peak), ours,
+                              by.bound(bound_here(bound, h, v, by), lobe)));
       }
     }
   return rows;

@@ -1,6 +1,7 @@
 #include "studies/stability/vectors.hpp"
 
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "reference_scenes/engines/analytic/formulas/vector.hpp"
 
 namespace lobelia::stability {
@@ -17,13 +18,36 @@ ScreenedVectors screen(LobeAngle angle, const Triple& directions) {
   const Long3 sum = l + v;
   const Long3 difference =
       angle == LobeAngle::kReflection ? 2 * dot(n, v) * n - v - l : n - normalize(sum);
-  return {rounded(n), rounded(v),
-          rounded(l), dot(difference, difference) / 2,
-          dot(n, l),  double(std::sqrt(dot(sum, sum)))};
+  return {rounded(n),
+          rounded(v),
+          rounded(l),
+          dot(difference, difference) / 2,
+          dot(n, l),
+          dot(n, v),
+          double(std::sqrt(dot(sum, sum)))};
 }
 
 long double screened_lobe(LobeId lobe, long double s, double exponent) {
   return s < 1 ? lobe_definition(lobe, 1 - s, exponent) : 0;
+}
+
+Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v) {
+  const truth::ModelRow& model = truth::model_row(h.model);
+  if (!model.has_shadowing)
+    return {n_dot_l > 0 ? truth::geometry(model, h.exponent, n_dot_l, n_dot_v) : 0, 0};
+  // Grows with N.L and falls with N.V. As one quotient, because the printed form has none at 0.
+  const auto at = [&](long double l, long double v) -> long double {
+    if (l <= 0) return 0;
+    const long double least = alpha_squared(h.exponent);
+    const auto root = [&](long double c) { return std::sqrt(least + (1 - least) * c * c); };
+    return 2 * l / (l * root(std::max(v, 0.0L)) + std::max(v, 0.0L) * root(l));
+  };
+  constexpr long double kFourRoundings = 4 * 0x1p-53L;
+  const long double value = at(n_dot_l, n_dot_v);
+  const long double high = at(n_dot_l + kFourRoundings, n_dot_v - kFourRoundings),
+                    low = at(n_dot_l - kFourRoundings, n_dot_v + kFourRoundings);
+  // The quotient's own dozen roundings.
+  return {value, double(std::max(high - value, value - low) + 3 * kFourRoundings * value)};
 }
 
 Vec3 RandomVectors::direction() {

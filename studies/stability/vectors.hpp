@@ -41,12 +41,26 @@ class RandomVectors {
 /// A highlight's vectors in long double (64 binary digits on x86), to find the worst of many cases, which is then judged
 /// by reference_scenes/engines/analytic/formulas/.
 struct ScreenedVectors {
-  Vec3 normal, to_eye, to_light;  ///< unit, correctly rounded to double
-  long double s, n_dot_l;         ///< of the unrounded vectors
-  double half_length;             ///< |L + V|
+  Vec3 normal, to_eye, to_light;    ///< unit, correctly rounded to double
+  long double s, n_dot_l, n_dot_v;  ///< of the unrounded vectors
+  double half_length;               ///< |L + V|
 };
 ScreenedVectors screen(LobeAngle angle, const Triple& directions);
 long double screened_lobe(LobeId lobe, long double s, double exponent);
+
+/// What a model multiplies the lobe with (geometry_factor), and the error that four roundings of the cosines make in it:
+/// next to nothing, but with shadowing all of it where light and eye are within a rounding of the horizon.
+struct Factor {
+  long double value;
+  double error;
+  /// What errors are relative to: with shadowing a highlight is higher than its lobe at grazing angles.
+  double peak() const { return std::max(1.0, double(value)); }
+  /// A bound of the lobe's error, as one of the whole, relative to peak().
+  double bound(double of_lobe, double lobe) const {
+    return of_lobe + std::min(1.0, lobe + of_lobe) * error / peak();
+  }
+};
+Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v);
 
 inline constexpr int kHalvings = 64;  ///< |L + V| is above 2^-kHalvings
 
@@ -58,7 +72,7 @@ inline void put(Vec3Chunk& to, std::size_t i, Vec3 a) {
 struct Chunk {
   Triple directions[kChunk];
   Vec3Chunk normal{}, to_eye{}, to_light{};
-  long double s[kChunk], n_dot_l[kChunk];
+  long double s[kChunk], n_dot_l[kChunk], n_dot_v[kChunk];
   int halvings[kChunk];
 
   template <class Draw>
@@ -67,13 +81,13 @@ struct Chunk {
       directions[i] = draw();
       const ScreenedVectors v = screen(angle, directions[i]);
       put(normal, i, v.normal), put(to_eye, i, v.to_eye), put(to_light, i, v.to_light);
-      s[i] = v.s, n_dot_l[i] = v.n_dot_l;
+      s[i] = v.s, n_dot_l[i] = v.n_dot_l, n_dot_v[i] = v.n_dot_v;
       halvings[i] = std::clamp(-std::ilogb(v.half_length), 0, kHalvings - 1);
     }
   }
 };
 
-/// Lobe times foreshortening by the renderer's kernel, in the precision that the plan would choose. Sets `bound` to that
+/// Lobe times geometry_factor() by the renderer's kernel, in the precision that the plan would choose. Sets `bound` to that
 /// precision's bound.
 double by_kernel(const Highlight& h, const ScreenedVectors& v, double& bound);
 

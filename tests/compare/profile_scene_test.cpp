@@ -167,7 +167,8 @@ FilmPoint brightest_place(const Scene& scene) {
     const Vec3 away = info(highlight.model).angle == LobeAngle::kReflection
                           ? ray - 2 * dot(n, ray) * n - l
                           : n - h;
-    return here->irradiance.r * highlight_radiance(highlight, dot(n, l), dot(away, away) / 2);
+    return here->irradiance.r *
+           highlight_radiance(highlight, dot(n, l), -dot(n, ray), dot(away, away) / 2);
   };
   FilmPoint best{scene.film.width / 2.0, scene.film.height / 2.0};
   for (double reach = scene.film.width / 2.0; reach > 1e-4; reach /= 4) {

@@ -31,7 +31,7 @@ records::HighlightTables explorer_record() {
   record.per_octave = 1;
   record.most_grazing = 1.5706;
   record.error.curve = 2e-4;
-  record.models = {{"modified_phong", kHostileTitle, "L and R", true, "radiance", "1/M0"}};
+  record.models = {{"modified_phong", kHostileTitle, "L and R", true, false, "radiance", "1/M0"}};
   record.lobes = {
       {"cosine", "cosine", "(1 - s)^n", 0, 0.1, {1.57, 1.57, 1.57}, {0.5, 0.4, 0.3}, rows}};
   record.highlights = {

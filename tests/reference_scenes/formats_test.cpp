@@ -174,6 +174,13 @@ std::vector<double> picture_of(const Json& scene) {
         const double cosine = std::max(0.0, times(direction, reflection ? to_light : normal));
         double lobe = std::pow(cosine, double(material["exponent"]));
         if (material["appliesCosine"]) lobe *= n_dot_l;
+        if (material["hasShadowing"]) {
+          const double n_dot_v = times(normal, to_eye), n = material["exponent"];
+          const auto lambda = [&](double c) {
+            return (std::sqrt(1 + 2 / (n + 2) * (1 / (c * c) - 1)) - 1) / 2;
+          };
+          lobe /= (1 + lambda(n_dot_l) + lambda(n_dot_v)) * n_dot_l * n_dot_v;
+        }
         for (std::size_t c = 0; n_dot_l > 0 && c < 3; ++c)
           radiance[c] = double(light["strength"][c]) *
                         (double(material["specular"][c]) * double(material["coefficient"]) * lobe +

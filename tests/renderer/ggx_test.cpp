@@ -74,15 +74,18 @@ TEST(GgxDistribution, IsNormalisedOverTheProjectedArea) {
   }
 }
 
-TEST(GgxDistribution, IsTheHeightfieldsWithALobeByAFormula) {
-  // The command at the end of docs/convert.md.
-  const LobeId lobe = formula_lobe("1/(1 + n*s*(2 - s)/2)^2");
-  const ModelId heightfield = *find_model("blinn_phong_heightfield");
-  for (const double alpha : {0.01, 0.1, 0.25, 0.6}) {
-    const Highlight highlight{heightfield, lobe, Normalisation::kExact, 2 / (alpha * alpha) - 2};
+TEST(GgxModel, IsTheDistributionTimesItsShadowing) {
+  const LobeId lobe = *find_lobe("ggx");
+  const ModelId model = *find_model("microfacet_smith");
+  for (const double alpha : {0.001, 0.01, 0.1, 0.25, 0.6, 0.99}) {
+    const Highlight highlight{model, lobe, Normalisation::kExact, 2 / (alpha * alpha) - 2};
     for (const double s : {0.0, 1e-6, 1e-3, 0.1, 0.9})
-      EXPECT_NEAR(4 * highlight_radiance(highlight, 1, s) / ggx_distribution(alpha, s), 1, 1e-9)
-          << alpha << ", " << s;
+      for (const double n_dot_l : {1e-6, 0.02, 1.0}) {
+        const double truth =
+            ggx_distribution(alpha, s) * ggx_visibility(alpha, n_dot_l, 0.4) * n_dot_l;
+        EXPECT_NEAR(highlight_radiance(highlight, n_dot_l, 0.4, s) / truth, 1, 1e-9)
+            << alpha << ", " << s;
+      }
   }
 }
 

@@ -31,10 +31,11 @@ TEST(OperationCount, OfEveryLobeAndModelIsNotNothing) {
   for (const ModelId model : all_models()) {
     const OperationCount count = operations(model);
     EXPECT_GT(count.multiply, 6) << info(model).name;
-    // The half vector is of unit length after a root and a division.
-    const int roots = info(model).angle == LobeAngle::kHalfVector ? 1 : 0;
-    EXPECT_EQ(count.root, roots) << info(model).name;
-    EXPECT_EQ(count.divide, roots) << info(model).name;
+    // The half vector is of unit length after a root and a division. Shadowing is a quotient with two roots.
+    const int unit = info(model).angle == LobeAngle::kHalfVector ? 1 : 0;
+    const int shadowing = info(model).has_shadowing ? 1 : 0;
+    EXPECT_EQ(count.root, unit + 2 * shadowing) << info(model).name;
+    EXPECT_EQ(count.divide, unit + shadowing) << info(model).name;
   }
 }
 

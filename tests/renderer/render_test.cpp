@@ -47,7 +47,7 @@ std::vector<Rgb> formula(const Scene& scene) {
         const double half_sine = std::sin(map.angle[i] / 2);
         const double value = coefficient *
                              lobe_value(h.lobe, 2 * half_sine * half_sine, h.exponent) *
-                             foreshortening(h.model, map.n_dot_l[i]);
+                             geometry_factor(h.model, h.exponent, map.n_dot_l[i], map.n_dot_v[i]);
         const auto& light = std::get<DirectionalLight>(scene.lights[l]);
         sum[i] = sum[i] + light.irradiance *
                               (value * material.specular_reflectance +

@@ -272,6 +272,7 @@ export interface ModelTable {
   title: string;
   angle: string;
   appliesCosine: boolean;
+  hasShadowing: boolean;
   normalised: string;
   coefficient: string;
 }

@@ -8,9 +8,9 @@ from collections import namedtuple
 # is_rdf: the radiance has no factor N.L. part: the lobe's angle as a share of the integration angle x.
 # by_cosine: cos x is a weight. factor: a microfacet distribution D reflects D/4. cosine: the coefficient of cos^n in
 # closed form, with tail = 2^(-n/2). cs16: the printed coefficient of cs16. misprint: the factor by which the printed
-# coefficient of cos^n is wrong.
-Model = namedtuple("Model", "half_vector is_rdf part by_cosine factor cosine cs16 misprint",
-                   defaults=(1,))
+# coefficient of cos^n is wrong. smith: shadowing by Smith, in place of the implicit (N.L)(N.V).
+Model = namedtuple("Model", "half_vector is_rdf part by_cosine factor cosine cs16 misprint smith",
+                   defaults=(1, False))
 MODELS = {
     "phong_rdf": Model(False, True, 1.0, False, 1,
                        lambda n, tail: (n + 1) / (2 * math.pi),
@@ -31,6 +31,9 @@ MODELS = {
     "blinn_phong_heightfield": Model(True, False, 1.0, True, 4,
                                      lambda n, tail: (n + 2) / (8 * math.pi),
                                      lambda n: (1.063 * n + 1) / (8 * math.pi)),
+    "microfacet_smith": Model(True, False, 1.0, True, 4,
+                              lambda n, tail: (n + 2) / (8 * math.pi),
+                              lambda n: (1.063 * n + 1) / (8 * math.pi), smith=True),
 }
 
 # value: at s = 1 - cos(angle) < 1. node: the same as shader nodes. reach: the s where the lobe ends or has fallen to 4e-18.
@@ -58,6 +61,10 @@ LOBES = {
     "schlick": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),
                     lambda nodes, s, n, k: schlick_node(nodes, s, n),
                     lambda n, k: 1.0),
+    # As printed it is (alpha^2/(c^2 (alpha^2 - 1) + 1))^2, where 1 - c^2 = s (2 - s).
+    "ggx": Lobe(lambda s, n, k: (1 + n * s * (2 - s) / 2) ** -2,
+                lambda nodes, s, n, k: ggx_node(nodes, s, n),
+                lambda n, k: 1.0),
     "expression": Lobe(
         lambda s, n, k: formula_lobe(k, s, n),
         lambda nodes, s, n, k: nodes.math(
@@ -147,6 +154,12 @@ def formula_node(nodes, tree, s, n):
 def schlick_node(nodes, s, n):
     c = nodes.math("MAXIMUM", nodes.math("SUBTRACT", 1.0, s), 0.0)
     return nodes.math("DIVIDE", c, nodes.math("ADD", c, nodes.math("MULTIPLY", n, s)))
+
+
+def ggx_node(nodes, s, n):
+    square = nodes.math("MULTIPLY", s, nodes.math("SUBTRACT", 2.0, s))
+    share = nodes.math("DIVIDE", 1.0, nodes.math("ADD", 1.0, nodes.math("MULTIPLY", n / 2, square)))
+    return nodes.math("MULTIPLY", share, share)
 
 
 def pk_coefficients(n, k):

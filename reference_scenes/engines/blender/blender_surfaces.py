@@ -69,6 +69,18 @@ class Nodes:
         half = self.math("ARCSINE", self.math("SQRT", self.math("MULTIPLY", 0.5, s)))
         return self.math("MULTIPLY", 2.0, self.math("MULTIPLY", half, half))
 
+    def smith(self, n, n_dot_l, n_dot_v):
+        """G/((N.L)(N.V)) of GGX with alpha^2 = 2/(n + 2), light and eye correlated by height."""
+        n_dot_l = self.math("MAXIMUM", n_dot_l, 1e-7)
+        return self.math("DIVIDE", 2.0, self.math(
+            "ADD", self.math("MULTIPLY", n_dot_l, self.smith_root(n, n_dot_v)),
+            self.math("MULTIPLY", n_dot_v, self.smith_root(n, n_dot_l))))
+
+    def smith_root(self, n, cosine):
+        a = 2 / (n + 2)
+        square = self.math("MULTIPLY", cosine, cosine)
+        return self.math("SQRT", self.math("ADD", a, self.math("MULTIPLY", 1 - a, square)))
+
     def lobe(self, material, s, n):
         lobe, order = find_lobe(material)
         value = lobe.node(self, s, n, order)
@@ -140,6 +152,10 @@ class Surface(Nodes):
             # Cancels Cycles' factor N.L. Where N.L <= 0 Cycles shows black anyway.
             n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)
             weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
+        if model.smith:
+            weight = self.math("MULTIPLY", weight, self.smith(
+                n, self.vector("DOT_PRODUCT", self.normal, self.to_light),
+                self.vector("DOT_PRODUCT", self.normal, self.to_eye)))
         weight = self.math("MULTIPLY", math.pi * coefficient_of(material), weight)
         # V.H is half the length of L + V.
         both = self.vector("LENGTH", self.vector("ADD", self.to_light, self.to_eye))
@@ -163,6 +179,8 @@ class Surface(Nodes):
         both = self.vector("LENGTH", self.vector("ADD", self.to_light, self.to_eye))
         h_dot_v = self.math("MULTIPLY", 0.5, both)
         weight = self.math("MULTIPLY", h_dot_v, self.math("MAXIMUM", n_dot_l, n_dot_v))
+        if model.smith:
+            weight = self.math("MULTIPLY", weight, self.smith(n, n_dot_l, n_dot_v))
         if model.is_rdf:
             weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
         weight = self.math("MULTIPLY", coefficient_of(material)*8*math.pi/(n + 1), weight)

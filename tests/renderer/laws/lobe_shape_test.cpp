@@ -32,12 +32,14 @@ TEST(EveryLobe, IsOneInTheMiddleAndFallsToBetweenZeroAndOne) {
 TEST(EveryLobe, FallsInTheMiddleAsTheSameBellWhateverTheLobe) {
   // 1 - n s + ...: that is what makes an exponent the same thing for all of them. The next term is
   // n^2 s^2 or less, and s^2 n at small n. A pk3.m is fitted to cos^n as a whole, so that it falls in the middle by 2.6 %,
-  // 0.41 %, 0.050 % and 0.008 % less, measured for k = 2 to 16.
+  // 0.41 %, 0.050 % and 0.008 % less, measured for k = 2 to 16. For GGX an exponent stands for the same peak of a
+  // heightfield's distribution: with its heavy tail it has to fall twice as fast.
   for (const LobeId& lobe : lobes())
     for (const double n : kExponents) {
       const double s = 1e-4 / std::max(1.0, n);
       const double fitted = family(lobe) == "pk" ? 0.11 / (lobe.order * lobe.order) : 0;
-      EXPECT_NEAR((1 - lobe_value(lobe, s, n)) / (n * s), 1, 1.1e-4 + fitted)
+      const double slope = family(lobe) == "ggx" ? 2 : 1;
+      EXPECT_NEAR((1 - lobe_value(lobe, s, n)) / (n * s) / slope, 1, slope * 1.1e-4 + fitted)
           << info(lobe).name << " n = " << n;
     }
 }

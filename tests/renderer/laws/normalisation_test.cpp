@@ -16,8 +16,9 @@ double normalised_integral(const Highlight& h) {
     const Vec3 direction{std::sin(angle), 0, std::cos(angle)};
     if (what == NormalisedQuantity::kRadiance)
       return reflector.eval(normal, normal, direction).r * std::sin(angle);
-    // Where light and eye are one, they are the half vector: radiance = D / 4 (N.L).
-    const double distribution = 4 * reflector.eval(normal, direction, direction).r / direction.z;
+    // Where light and eye are one, they are the half vector: radiance = D / 4 times the geometry factor.
+    const double distribution = 4 * reflector.eval(normal, direction, direction).r /
+                                geometry_factor(h.model, h.exponent, direction.z, direction.z);
     const double projected = what == NormalisedQuantity::kProjectedNormals ? direction.z : 1;
     return distribution * projected * std::sin(angle);
   };

@@ -7,28 +7,41 @@
 namespace lobelia {
 namespace {
 
-TEST(EveryModel, CarriesTheCosineExactlyWhereItsCatalogueEntrySaysSo) {
+/// Smith's G / ((N.L) (N.V)) for GGX as Heitz prints it.
+double textbook_shadowing(double exponent, double n_dot_l, double n_dot_v) {
+  const auto lambda = [&](double c) {
+    return (std::sqrt(1 + 2 / (exponent + 2) * (1 / (c * c) - 1)) - 1) / 2;
+  };
+  return 1 / ((1 + lambda(n_dot_l) + lambda(n_dot_v)) * n_dot_l * n_dot_v);
+}
+
+TEST(EveryModel, CarriesCosineAndShadowingExactlyWhereItsCatalogueEntrySaysSo) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents))
     for (const double n_dot_l : {1e-9, 0.25, 0.5, 1.0})
-      EXPECT_NEAR(highlight_radiance(h, n_dot_l, 0),
-                  radiance_coefficient(h) * (info(h.model).applies_cosine ? n_dot_l : 1),
-                  1e-14 * radiance_coefficient(h))
-          << text(h);
+      for (const double n_dot_v : {1e-9, 0.3, 1.0}) {
+        const double factor =
+            (info(h.model).applies_cosine ? n_dot_l : 1) *
+            (info(h.model).has_shadowing ? textbook_shadowing(h.exponent, n_dot_l, n_dot_v) : 1);
+        EXPECT_NEAR(highlight_radiance(h, n_dot_l, n_dot_v, 0), radiance_coefficient(h) * factor,
+                    1e-14 * radiance_coefficient(h) * std::max(1.0, factor))
+            << text(h);
+        EXPECT_LE(factor, largest_shadowing(h.model, h.exponent)) << text(h);
+      }
 }
 
 TEST(EveryModel, IsDarkWhereTheLightIsBelowTheHorizon) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents))
     for (const double n_dot_l : {0.0, -1e-300, -0.5, std::nan("")})
-      EXPECT_EQ(highlight_radiance(h, n_dot_l, 0), 0) << text(h);
+      EXPECT_EQ(highlight_radiance(h, n_dot_l, 0.5, 0), 0) << text(h);
 }
 
 TEST(EveryModel, DoesNotGetBrighterAsTheAngleOfItsLobeGrows) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents))
     for (const double n_dot_l : {1e-12, 0.5}) {
-      double previous = highlight_radiance(h, n_dot_l, 0);
+      double previous = highlight_radiance(h, n_dot_l, 0.7, 0);
       for (const double widths : {0.01, 0.1, 0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 100.0}) {
         const double s = std::min(2.0, widths * widths / 2 / h.exponent);
-        const double here = highlight_radiance(h, n_dot_l, s);
+        const double here = highlight_radiance(h, n_dot_l, 0.7, s);
         EXPECT_LE(here, previous * (1 + 1e-12)) << text(h) << " at s = " << s;
         previous = here;
       }

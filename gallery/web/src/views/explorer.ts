@@ -172,7 +172,7 @@ class Explorer {
       ['Exponent n', (c) => numberText(c.at.n, 5)],
       ['Coefficient', (c) => numberText(c.at.coefficient(c.highlight, c.norm), 4)],
       ['How it comes about', (c) => (c.norm === 'paper' ? 'as the paper prints it' : c.model.coefficient)],
-      ['Peak', (c) => `${numberText(c.at.coefficient(c.highlight, c.norm), 4)}${c.model.appliesCosine ? ' N.L' : ' at any incidence'}`],
+      ['Peak', (c) => `${numberText(c.at.coefficient(c.highlight, c.norm), 4)}${c.model.hasShadowing ? ' G / N.V' : c.model.appliesCosine ? ' N.L' : ' at any incidence'}`],
       ['Half-width of the lobe', (c) => `${numberText(c.at.halfWidth(c.lobe), 4)}°`],
       ['Lobe is 0 beyond', (c) => `${numberText(c.at.reach(c.lobe), 4)}°`],
       ['Energy at normal incidence', (c) => numberText(c.at.albedo(c.highlight, c.norm, false).y[0]!, 4)],

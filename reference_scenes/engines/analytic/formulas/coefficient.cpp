@@ -116,7 +116,9 @@ double coefficient(const Highlight& highlight) {
   if (highlight.normalisation == Normalisation::kExact)
     return coefficient(highlight.model, highlight.lobe, highlight.exponent);
   const ModelRow& model = model_row(highlight.model);
-  const auto& row = *std::ranges::find(paper::kRows, model.name, &paper::Row::name);
+  // Shadowing is not in the coefficient: the distribution is the heightfield's.
+  const std::string_view printed = model.has_shadowing ? "blinn_phong_heightfield" : model.name;
+  const auto& row = *std::ranges::find(paper::kRows, printed, &paper::Row::name);
   const std::string_view lobe = info(highlight.lobe).name;
   if (lobe != "cosine" && lobe != "cs16")
     throw Error(ExitCode::kInput,

@@ -18,13 +18,19 @@ Number lobe_definition(const LobeId& lobe, const Number& cosine, double exponent
 }
 
 /// A lobe is sampled over s with the density lobe times this, over its integral: 1 where the samples follow the lobe itself.
-/// Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator.
+/// Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator, and GGX from
+/// (1 + n s / 2)^-2.
 template <class Number>
-Number draw_factor(LobeId lobe, const Number& cosine) {
+Number draw_factor(LobeId lobe, const Number& cosine, double exponent) {
   using std::acos, std::sin;
   if (info(lobe).name == "gauss") {
     const Number x = acos(cosine);
     return x > Number(0) ? Number(x / sin(x)) : Number(1);
+  }
+  if (info(lobe).name == "ggx") {
+    const Number s = Number(1) - cosine, n = Number(exponent);
+    const Number drawn = Number(1) + n * s / Number(2), own = drawn + n * s * cosine / Number(2);
+    return own * own / (drawn * drawn);
   }
   return info(lobe).name == "schlick" ? Number(Number(1) / cosine) : Number(1);
 }

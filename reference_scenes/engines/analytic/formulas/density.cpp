@@ -14,7 +14,7 @@ namespace {
 /// The density, not normalised.
 Big unnormalised(LobeId lobe, const Big& cosine, double exponent) {
   if (cosine <= 0) return 0;
-  return lobe_of_cosine(lobe, cosine, exponent) * draw_factor(lobe, cosine);
+  return lobe_of_cosine(lobe, cosine, exponent) * draw_factor(lobe, cosine, exponent);
 }
 
 /// The integral over the cosine from where the lobe ends to 1.

@@ -47,7 +47,9 @@ struct Finish {
     const Real cosine = lobe_cosine(model.angle, at.normal, at.to_eye, light.to_light);
     const double lobe(lobe_of_cosine(highlight.lobe, cosine, highlight.exponent));
     const Real v_dot_h = dot(at.to_eye, normalize(light.to_light + at.to_eye));
-    return coefficient * lobe * (model.radiance_has_cosine ? n_dot_l : 1) *
+    const double geometry(
+        truth::geometry<Real>(model, highlight.exponent, light.n_dot_l, dot(at.normal, at.to_eye)));
+    return coefficient * lobe * geometry *
                reflected(material.fresnel, material.specular_reflectance, 1, v_dot_h) +
            diffuse;
   }

@@ -18,10 +18,11 @@ Big angle_at(const LobeId& lobe, double value, double exponent);
 struct ModelRow {
   std::string_view name;
   LobeAngle angle;
-  bool radiance_has_cosine;  ///< N.L
-  bool lobe_of_half_angle;   ///< in the integral: lobe(x/2), else lobe(x)
-  bool integral_has_cosine;  ///< cos x
-  int parts;                 ///< the radiance is lobe / parts: 4 for a distribution of normals
+  bool radiance_has_cosine;    ///< N.L
+  bool lobe_of_half_angle;     ///< in the integral: lobe(x/2), else lobe(x)
+  bool integral_has_cosine;    ///< cos x
+  int parts;                   ///< the radiance is lobe / parts: 4 for a distribution of normals
+  bool has_shadowing = false;  ///< by Smith, in place of G = (N.L)(N.V)
 };
 /// Throws Error(kInternal) for a model without a row.
 const ModelRow& model_row(std::string_view model);
@@ -34,6 +35,18 @@ Real lobe_cosine(LobeAngle angle, const Vector<Real>& normal, const Vector<Real>
   if (angle == LobeAngle::kReflection)
     return 2 * dot(normal, to_eye) * dot(normal, to_light) - dot(to_eye, to_light);
   return dot(normal, normalize(to_light + to_eye));
+}
+
+/// What the model multiplies the lobe with, for cosines above 0. Shadowing as Heitz prints it, by Lambda.
+template <class Real>
+Real geometry(const ModelRow& model, double exponent, const Real& n_dot_l, const Real& n_dot_v) {
+  using std::sqrt;
+  const Real cosine = model.radiance_has_cosine ? n_dot_l : Real(1);
+  if (!model.has_shadowing) return cosine;
+  const auto lambda = [&](const Real& c) -> Real {
+    return (sqrt(1 + Real(2) / Real(exponent + 2) * (1 / (c * c) - 1)) - 1) / 2;
+  };
+  return cosine / ((1 + lambda(n_dot_l) + lambda(n_dot_v)) * n_dot_l * n_dot_v);
 }
 
 }  // namespace lobelia::truth

@@ -31,7 +31,9 @@ double shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light
   const ModelRow& model = model_row(highlight.model);
   const Big lobe =
       lobe_of_cosine(highlight.lobe, lobe_cosine(model.angle, n, v, l), highlight.exponent);
-  return double(model.radiance_has_cosine ? Big(lobe * n_dot_l) : lobe);
+  const Big n_dot_v = dot(n, v);
+  if (model.has_shadowing && n_dot_v <= 0) return 0;
+  return double(Big(lobe * geometry(model, highlight.exponent, n_dot_l, n_dot_v)));
 }
 
 }  // namespace lobelia::truth

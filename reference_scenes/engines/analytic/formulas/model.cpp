@@ -17,6 +17,7 @@ constexpr ModelRow kRows[] = {
     {"modified_blinn_phong", kH, true, true, true, 1},
     {"blinn_phong_ndf", kH, true, false, false, 4},
     {"blinn_phong_heightfield", kH, true, false, true, 4},
+    {"microfacet_smith", kH, true, false, true, 4, true},
 };
 
 }  // namespace

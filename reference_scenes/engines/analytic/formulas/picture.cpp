@@ -15,7 +15,7 @@ struct Picture::Pixels {
   /// One light on one pixel that it lights.
   struct Lit {
     std::size_t pixel;
-    Big n_dot_l;
+    Big n_dot_l, n_dot_v;
     Big cosine[2];   ///< of the lobe's angle, by LobeAngle
     Rgb irradiance;  ///< times the specular reflectance
   };
@@ -47,6 +47,7 @@ Picture::Picture(const Scene& scene) : pixels_(std::make_unique<Pixels>()) {
           pixels_->lit.push_back(
               {pixel,
                arrival->n_dot_l,
+               dot(met->normal, met->to_eye),
                {cosine(LobeAngle::kReflection), cosine(LobeAngle::kHalfVector)},
                double(arrival->falloff) * (strength(scene.lights[light]) * reflectance)});
         }
@@ -78,7 +79,7 @@ std::vector<Rgb> Picture::highlights(const Highlight& highlight) const {
   std::vector<Rgb> radiance(pixels_->sphere.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& lit = pixels_->lit[i];
-    const Big share = model.radiance_has_cosine ? Big(values[i] * lit.n_dot_l) : values[i];
+    const Big share = values[i] * geometry(model, highlight.exponent, lit.n_dot_l, lit.n_dot_v);
     Rgb& sum = radiance[lit.pixel];
     sum = sum + factor * double(share) * lit.irradiance;
   }
