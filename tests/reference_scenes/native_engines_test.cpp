@@ -23,7 +23,7 @@ constexpr double kAngles[] = {0, 45, 80, 120};
 std::vector<Scene> highlights(const std::vector<double>& exponents) {
   std::vector<Scene> scenes;
   for (const ModelInfo& model : models())
-    for (const char* lobe : {"cosine", "schlick", "cs16"})
+    for (const char* lobe : {"cosine", "schlick", "cs16", "ggx"})
       for (const double exponent : exponents)
         for (const double angle : kAngles)
           scenes.push_back(

@@ -77,8 +77,8 @@ class BlenderProgram final : public PersistentProgram {
   std::string method() const override {
     if (own_transport_) return "Cycles' own light transport";
     if (is_native_)
-      return "Cycles' Ashikhmin-Shirley closure, its geometry term taken out by its colour, under a "
-             "real lamp, one pass per light and reflection";
+      return "Cycles' closures of Ashikhmin and Shirley and of GGX, their geometry term taken out by their "
+             "colour, under a real lamp, one pass per light and reflection";
     return "shader nodes as the colour of a surface under a real lamp, one pass per light and "
            "reflection";
   }
@@ -94,8 +94,8 @@ class Blender final : public ProgramEngine {
  protected:
   std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const override {
     if (options.shading == Shading::kNative && !is_native_in_blender(scene))
-      return "Cycles has highlights of its own only with the distribution of Ashikhmin and Shirley: cos^n "
-             "of the half-vector angle, here on spheres";
+      return "Cycles has highlights of its own only with the distributions of Ashikhmin and Shirley, cos^n, and "
+             "of GGX, both of the half-vector angle, here on spheres";
     if (const std::string lamp = lamp_below_horizon(scene); !lamp.empty())
       return lamp + ", and in Cycles a rounding decides whether the sphere hides it";
     return why_not_for_programs(scene);

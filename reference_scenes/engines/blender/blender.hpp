@@ -32,8 +32,8 @@ inline constexpr EngineInfo kBlenderInfo{
     .install_hint = "sudo apt-get install blender",
     .supported_versions = "3.4 to 4.x",
     .shading =
-        "expressed: all, in shader nodes; native (if asked for): half-vector models with cos^n, by the "
-        "Ashikhmin-Shirley closure",
+        "expressed: all, in shader nodes; native (if asked for): half-vector models with cos^n or GGX, by the "
+        "closures of that name",
     .precision =
         "float32 throughout: 2e-5 of the peak up to n = 1024, 3e-4 at 1e6 (docs/agreement.md)",
     .effects =

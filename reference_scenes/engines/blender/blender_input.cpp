@@ -155,7 +155,8 @@ bool is_native_in_blender(const Scene& scene) {
   return std::ranges::all_of(scene.spheres, [&](const Sphere& sphere) {
     const Material& material = scene.materials.at(std::size_t(sphere.material));
     const Highlight& h = material.highlight;
-    return info(h.model).angle == LobeAngle::kHalfVector && info(h.lobe).name == "cosine";
+    const std::string_view lobe = info(h.lobe).name;
+    return info(h.model).angle == LobeAngle::kHalfVector && (lobe == "cosine" || lobe == "ggx");
   });
 }
 

@@ -76,6 +76,14 @@ class Nodes:
             "ADD", self.math("MULTIPLY", n_dot_l, self.smith_root(n, n_dot_v)),
             self.math("MULTIPLY", n_dot_v, self.smith_root(n, n_dot_l))))
 
+    def own_smith(self, n, n_dot_l, n_dot_v):
+        """The same by Cycles' GGX closure: until Blender 3.4 the product of the two shares, not correlated."""
+        if bpy.app.version >= (3, 5):
+            return self.smith(n, n_dot_l, n_dot_v)
+        sums = [self.math("ADD", cosine, self.smith_root(n, cosine))
+                for cosine in (self.math("MAXIMUM", n_dot_l, 1e-7), n_dot_v)]
+        return self.math("DIVIDE", 4.0, self.math("MULTIPLY", *sums))
+
     def smith_root(self, n, cosine):
         a = 2 / (n + 2)
         square = self.math("MULTIPLY", cosine, cosine)
@@ -165,25 +173,32 @@ class Surface(Nodes):
                            tuple(material["diffuse"]))
 
     def closure(self, material):
-        """The highlight by Cycles' Ashikhmin-Shirley closure, with the distribution cos^n of the half-vector angle. Under a
-        unit sun it shows (n + 1)/(8 pi) (N.H)^n N.L / ((H.V) max(N.L, N.V)). The colour replaces this geometry term by the
-        model's."""
+        """The highlight by one of Cycles' closures, whose geometry term the colour replaces by the model's. Under a unit sun
+        Ashikhmin and Shirley's shows (n + 1)/(8 pi) (N.H)^n N.L / ((H.V) max(N.L, N.V)), and GGX
+        (n + 2)/(8 pi) D(N.H)/D(1) N.L times G / ((N.L) (N.V))."""
         model, n = MODELS[material["model"]], material["exponent"]
-        if not model.half_vector or material["lobe"] != "cosine":
+        distributions = {"cosine": "ASHIKHMIN_SHIRLEY", "ggx": "GGX"}
+        if not model.half_vector or material["lobe"] not in distributions:
             raise KeyError(material["model"] + " " + material["lobe"])
         glossy = self.new("ShaderNodeBsdfGlossy")
-        glossy.distribution = "ASHIKHMIN_SHIRLEY"
+        glossy.distribution = distributions[material["lobe"]]
         glossy.inputs["Roughness"].default_value = (2/(n + 2))**0.25
         n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)
         n_dot_v = self.vector("DOT_PRODUCT", self.normal, self.to_eye)
         both = self.vector("LENGTH", self.vector("ADD", self.to_light, self.to_eye))
         h_dot_v = self.math("MULTIPLY", 0.5, both)
-        weight = self.math("MULTIPLY", h_dot_v, self.math("MAXIMUM", n_dot_l, n_dot_v))
-        if model.smith:
-            weight = self.math("MULTIPLY", weight, self.smith(n, n_dot_l, n_dot_v))
+        if material["lobe"] == "ggx":
+            own = (n + 2)/(8*math.pi)
+            weight = self.math("DIVIDE", self.smith(n, n_dot_l, n_dot_v) if model.smith else 1.0,
+                               self.own_smith(n, n_dot_l, n_dot_v))
+        else:
+            own = (n + 1)/(8*math.pi)
+            weight = self.math("MULTIPLY", h_dot_v, self.math("MAXIMUM", n_dot_l, n_dot_v))
+            if model.smith:
+                weight = self.math("MULTIPLY", weight, self.smith(n, n_dot_l, n_dot_v))
         if model.is_rdf:
             weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
-        weight = self.math("MULTIPLY", coefficient_of(material)*8*math.pi/(n + 1), weight)
+        weight = self.math("MULTIPLY", coefficient_of(material)/own, weight)
         color = self.fresnel(material["fresnel"], material["specular"], h_dot_v)
         if self.falloff is not None:
             weight = self.math("MULTIPLY", weight, self.falloff)
