@@ -47,6 +47,7 @@ class Search {
   Search(const LobeVariant& variant, double exponent)
       : variant_(variant),
         n_(exponent),
+        most_bend_(most_bend(variant.lobe)),
         own_(prepare(variant.lobe, exponent)),
         cosine_(prepare(*find_lobe("cosine"), exponent)),
         is_cosine_(variant.lobe == *find_lobe("cosine") ||
@@ -160,7 +161,7 @@ class Search {
     return block;
   }
 
-  /// A bound of the error from `begin` to `end`: the lobes fall and bend by kMostBend at most, and the variant adds its
+  /// A bound of the error from `begin` to `end`: the lobes fall and bend by most_bend() at most, and the variant adds its
   /// allowed rounding; it cannot exceed the lobes' own values.
   double upper(double begin, double end) const {
     const double own = own_.value(begin), cosine = cosine_.value(begin);
@@ -176,7 +177,7 @@ class Search {
   }
 
   /// The most that the second derivative adds between two ends `width` apart in n s.
-  static double bend(double width) { return kMostBend / 8 * width * width; }
+  double bend(double width) const { return most_bend_ / 8 * width * width; }
 
   /// The most that the variant can return for that value or a smaller one: each factor e adds a few roundings.
   double most_value(double own) const {
@@ -207,12 +208,14 @@ class Search {
   }
 
   const LobeVariant& variant_;
-  double n_;
+  double n_, most_bend_;
   PreparedLobe own_, cosine_;
   bool is_cosine_;
 };
 
 }  // namespace
+
+double most_bend(const LobeId& lobe) { return family(lobe) == "ggx" ? 8 : 3.5; }
 
 std::vector<records::CostError> lobe_error_kinds() {
   return {{"max", "largest error, of the peak"},

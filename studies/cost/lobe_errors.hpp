@@ -62,11 +62,11 @@ struct LargestError {
 /// number at which more than the known `at_least` is possible, by the distance of the lobes and the variant's allowed
 /// rounding, but at most about `most_numbers`, spread over all places.
 ///
-/// A variant in float32 gives 1 where n s < 2^-26, and loses no more than 2^-26 there.
+/// A variant in float32 gives 1 where n s < 2^-26, or 1 with its allowed rounding, and loses no more than 2^-26 there.
 LargestError largest_error(const LobeVariant& variant, double exponent, double at_least,
                            std::uint64_t most_numbers);
 
-/// |d2/ds2 (lobe - cos^n)| of every lobe of the catalogue is at most this, times n^2.
-inline constexpr double kMostBend = 3.5;
+/// |d2/ds2 (lobe - cos^n)| of a lobe of the catalogue is at most this, times n^2. GGX falls twice as fast as the others.
+double most_bend(const LobeId& lobe);
 
 }  // namespace lobelia::cost

@@ -31,7 +31,7 @@ long double screened_lobe(LobeId lobe, long double s, double exponent) {
   return s < 1 ? lobe_definition(lobe, 1 - s, exponent) : 0;
 }
 
-Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v) {
+Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v, double unit) {
   const truth::ModelRow& model = truth::model_row(h.model);
   if (!model.has_shadowing)
     return {n_dot_l > 0 ? truth::geometry(model, h.exponent, n_dot_l, n_dot_v) : 0, 0};
@@ -42,12 +42,12 @@ Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v) {
     const auto root = [&](long double c) { return std::sqrt(least + (1 - least) * c * c); };
     return 2 * l / (l * root(std::max(v, 0.0L)) + std::max(v, 0.0L) * root(l));
   };
-  constexpr long double kFourRoundings = 4 * 0x1p-53L;
+  const long double roundings = 4 * unit;
   const long double value = at(n_dot_l, n_dot_v);
-  const long double high = at(n_dot_l + kFourRoundings, n_dot_v - kFourRoundings),
-                    low = at(n_dot_l - kFourRoundings, n_dot_v + kFourRoundings);
+  const long double high = at(n_dot_l + roundings, n_dot_v - roundings),
+                    low = at(n_dot_l - roundings, n_dot_v + roundings);
   // The quotient's own dozen roundings.
-  return {value, double(std::max(high - value, value - low) + 3 * kFourRoundings * value)};
+  return {value, double(std::max(high - value, value - low) + 3 * roundings * value)};
 }
 
 Vec3 RandomVectors::direction() {

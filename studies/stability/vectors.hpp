@@ -48,8 +48,8 @@ struct ScreenedVectors {
 ScreenedVectors screen(LobeAngle angle, const Triple& directions);
 long double screened_lobe(LobeId lobe, long double s, double exponent);
 
-/// What a model multiplies the lobe with (geometry_factor), and the error that four roundings of the cosines make in it:
-/// next to nothing, but with shadowing all of it where light and eye are within a rounding of the horizon.
+/// What a model multiplies the lobe with (geometry_factor), and the error that four roundings of the cosines make in it, each
+/// of `unit`: next to nothing, but with shadowing all of it where light and eye are within a rounding of the horizon.
 struct Factor {
   long double value;
   double error;
@@ -60,7 +60,7 @@ struct Factor {
     return of_lobe + std::min(1.0, lobe + of_lobe) * error / peak();
   }
 };
-Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v);
+Factor factor(const Highlight& h, long double n_dot_l, long double n_dot_v, double unit = 0x1p-53);
 
 inline constexpr int kHalvings = 64;  ///< |L + V| is above 2^-kHalvings
 

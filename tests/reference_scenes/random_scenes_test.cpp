@@ -43,7 +43,14 @@ PixelPeaks peaks_of(const Scene& scene, const std::vector<double>& share_by_mate
         const double specular = schlick ? 1 : max_component(m.specular_reflectance);
         for (std::size_t l = 0; l < scene.lights.size(); ++l)
           if (const auto arrival = tracer.arrival(l, met)) {
-            const double here = weight * radiance_coefficient(m.highlight) * specular *
+            const Highlight& h = m.highlight;
+            // Shadowing makes a highlight higher at grazing angles, and its error with it.
+            const double factor =
+                info(h.model).has_shadowing
+                    ? std::max(1.0, geometry_factor(h.model, h.exponent, arrival->n_dot_l,
+                                                    dot(met.normal, met.to_eye)))
+                    : 1;
+            const double here = weight * radiance_coefficient(h) * factor * specular *
                                 arrival->falloff * max_component(strength(scene.lights[l]));
             peak += here;
             allowed += share_by_material[std::size_t(met.material)] * here;
@@ -102,7 +109,7 @@ TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
 TEST(RandomScenes, InEachPrecisionAreWithinItsBoundOfTheSameInFloat64) {
   int tight = 0;
   double closest = 0;
-  expect_of_random_scenes(SceneKind::kExact, 300, [&](const Scene& random_one, Random&) {
+  expect_of_random_scenes(SceneKind::kExact, 1200, [&](const Scene& random_one, Random&) {
     const Scene scene = told_by_formulas(random_one);
     RenderOptions options;
     options.precision = Precision::kFloat64;
@@ -136,7 +143,7 @@ TEST(RandomScenes, InEachPrecisionAreWithinItsBoundOfTheSameInFloat64) {
     }
     return std::string();
   });
-  EXPECT_GT(tight, 300);
+  EXPECT_GT(tight, 1200);
   EXPECT_GT(closest, 0.01) << "bounds that nothing comes near";
 }
 

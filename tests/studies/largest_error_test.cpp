@@ -130,7 +130,9 @@ TEST(LobeVariants, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
       std::vector<float> s(1 << 12);
       for (float& one : s) one = float(0x1p-26 / n * std::pow(10, -30 * uniform(random)) * 0.999);
       for (const double value : variant.values(s))
-        ASSERT_EQ(value, 1) << variant.name() << " " << n;
+        // The textbook's alpha^2 - 1 + 1 is not alpha^2.
+        ASSERT_NEAR(value, 1, family(variant.lobe) == "ggx" ? variant.allowed : 0)
+            << variant.name() << " " << n;
     }
 }
 
@@ -161,7 +163,8 @@ TEST(Lobes, OfTheCatalogueBendNoMoreThanTheSearchTakesThemTo) {
       const double step = 1e-3 / n;
       for (double s = step; s + step < std::min(1.0, 30 / n); s += step) {
         const double bend = difference(s - step) - 2 * difference(s) + difference(s + step);
-        ASSERT_LE(std::abs(bend) / (step * step), kMostBend * n * n * (1 + 1e-6) + 1e-2 * n * n)
+        ASSERT_LE(std::abs(bend) / (step * step),
+                  most_bend(lobe) * n * n * (1 + 1e-6) + 1e-2 * n * n)
             << info(lobe).name << " " << n << " " << s;
       }
     }

@@ -74,6 +74,10 @@ TEST(HardCases, DensitiesOfEveryLobeAreAllComparedAndNotOnlyWhereThereIsNothing)
 
 TEST(HardCases,
      VectorsAreComparedUnlessLightAndEyeFaceEachOtherAlongTheHorizonAndNoCosineDimsThem) {
+  const auto is_undimmed = [](std::string_view model) {
+    const ModelInfo& about = info(*find_model(model));
+    return about.angle == LobeAngle::kHalfVector && (!about.applies_cosine || about.has_shadowing);
+  };
   int cases = 0, not_compared = 0;
   for (const LobeId& lobe : lobes_under_test())
     for (const Row& row : vector_rows(lobe)) {
@@ -81,9 +85,9 @@ TEST(HardCases,
       if (row.outcome != kNotCompared) continue;
       ++not_compared;
       EXPECT_TRUE(row.name.starts_with("L = -V")) << row.name << ", " << row.model;
-      EXPECT_EQ(row.model, "blinn_phong_rdf") << row.name;
+      EXPECT_TRUE(is_undimmed(row.model)) << row.name << ", " << row.model;
     }
-  EXPECT_LT(not_compared, 0.02 * cases);
+  EXPECT_LT(not_compared, 0.03 * cases);
 }
 
 TEST(HardCases, HalfFloatsHoldTheirBoundWhereTheTextbookLosesTheHighlight) {
