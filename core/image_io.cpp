@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <sys/mman.h>
 
 #include <cerrno>
@@ -18,18 +19,36 @@
 namespace lobelia {
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The file with this code: the program, or the shared library that a program of others has loaded.
+fs::path own_file() {
+  Dl_info found{};
+  const link_map* object = nullptr;
+  // The name of the program itself is empty there.
+  if (::dladdr1(reinterpret_cast<const void*>(&find_companion), &found,
+                reinterpret_cast<void**>(const_cast<link_map**>(&object)), RTLD_DL_LINKMAP) != 0 &&
+      object && object->l_name[0] != '\0')
+    return fs::canonical(object->l_name);
+  return fs::read_symlink("/proc/self/exe");
+}
+
+}  // namespace
+
 fs::path find_companion(std::string_view name) {
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& directory : {here, here.parent_path() / "lib" / "lobelia"})
-    if (fs::exists(directory / name)) return directory / name;
+  // Looked up once, because the library's name may be relative to the directory that the program began in.
+  static const fs::path here = own_file().parent_path();
+  // Debian has libraries in lib/ARCHITECTURE.
+  for (const fs::path& directory : {here, here.parent_path() / "lib" / "lobelia",
+                                    here.parent_path() / "lobelia", here / "lobelia"})
+    if (fs::is_regular_file(directory / name)) return directory / name;
   return {};
 }
 
 fs::path companion_file(const char* name) {
   if (fs::path found = find_companion(name); !found.empty()) return found;
-  throw Error(ExitCode::kInternal,
-              fmt::format("{} is neither beside the program in {} nor in ../lib/lobelia", name,
-                          fs::read_symlink("/proc/self/exe").parent_path().string()));
+  throw Error(ExitCode::kInternal, fmt::format("{} is neither beside {} nor in ../lib/lobelia",
+                                               name, own_file().string()));
 }
 
 namespace {
