@@ -10,4 +10,4 @@ install(FILES README.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${LOBELI
 install(DIRECTORY docs DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
 
 # Builds all that is installed, and no test: `cmake --build BUILD --target installed`.
-add_custom_target(installed DEPENDS lobelia lobelia_image_io manual)
+add_custom_target(installed DEPENDS lobelia lobelia_image_io lobelia_api manual)

@@ -35,6 +35,8 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"studies",
      {"core", "records", "renderer", "shaders", "compare", "reference_scenes", "accuracy"}},
     {"gallery", {"core", "records"}},
+    {"include", {}},
+    {"library", {"core", "records", "renderer", "compare", "include"}},
     {"cli",
      {"core", "records", "renderer", "shaders", "compare", "reference_scenes", "accuracy", "farm",
       "studies", "gallery"}},
@@ -55,7 +57,7 @@ bool may_include_library(const std::string& header, const std::string& file) {
 Problems forbidden_arrows(const fs::path& root) {
   static const std::regex include(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
   static const std::regex link(R"re(\blobelia(?:::|_)([a-z_]+))re");
-  static const std::regex tests_and_bench("^(tests|bench|fuzz)/.*");
+  static const std::regex tests_and_bench("^(tests|bench|fuzz|examples)/.*");
   Problems problems;
   const auto check = [&](const fs::path& file, std::size_t line, const std::string& target) {
     const std::string room = file.begin()->string();
@@ -77,10 +79,8 @@ Problems forbidden_arrows(const fs::path& root) {
       ++number;
       std::smatch match;
       if (cmake) {
-        if (std::regex_search(line, match, link)) {
-          for (std::sregex_iterator it(line.begin(), line.end(), link), end; it != end; ++it)
-            check(file, number, (*it)[1]);
-        }
+        for (std::sregex_iterator it(line.begin(), line.end(), link), end; it != end; ++it)
+          check(file, number, (*it)[1]);
         continue;
       }
       if (!std::regex_search(line, match, include)) continue;
