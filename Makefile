@@ -18,7 +18,7 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery references test sanitize sanitize-short build bench fuzz chaos lint install uninstall clean
+.PHONY: help gallery references test sanitize sanitize-short build bench fuzz chaos lint install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -105,6 +105,13 @@ install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
 
 uninstall: ## removes what install copied to PREFIX, and no file that was changed since
 	@scripts/install --remove "$(PREFIX)"
+
+package: ## builds Debian packages into build/release/packages
+	$(setup) build packaging
+	$(configure)
+	$(build) --target installed
+	cd "build/$(PRESET)" && cpack > packages.log || { cat packages.log; exit 1; }
+	@ls "build/$(PRESET)"/packages/*.deb
 
 clean: ## removes what make built: build/ and out/
 	rm -rf build out

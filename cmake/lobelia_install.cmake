@@ -11,3 +11,7 @@ install(DIRECTORY docs DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
 
 # Builds all that is installed, and no test: `cmake --build BUILD --target installed`.
 add_custom_target(installed DEPENDS lobelia lobelia_image_io lobelia_api manual)
+
+if(EXISTS /etc/debian_version)
+  include(lobelia_packages)
+endif()
