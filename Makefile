@@ -110,7 +110,7 @@ package: ## builds Debian packages into build/release/packages
 	$(setup) build packaging
 	$(configure)
 	$(build) --target installed
-	cd "build/$(PRESET)" && cpack > packages.log || { cat packages.log; exit 1; }
+	cd "build/$(PRESET)" && cpack > packages.log 2>&1 || { cat packages.log; exit 1; }
 	@ls "build/$(PRESET)"/packages/*.deb
 
 clean: ## removes what make built: build/ and out/
