@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 
 #include <cerrno>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/exr_writer.hpp"
@@ -37,11 +38,14 @@ fs::path own_file() {
 
 fs::path find_companion(std::string_view name) {
   // Looked up once, because the library's name may be relative to the directory that the program began in.
-  static const fs::path here = own_file().parent_path();
-  // Debian has libraries in lib/ARCHITECTURE.
-  for (const fs::path& directory : {here, here.parent_path() / "lib" / "lobelia",
-                                    here.parent_path() / "lobelia", here / "lobelia"})
-    if (fs::is_regular_file(directory / name)) return directory / name;
+  static const std::vector<fs::path> places = [] {
+    const fs::path file = own_file(), here = file.parent_path(), above = here.parent_path();
+    if (file == fs::read_symlink("/proc/self/exe")) return std::vector{here, above / "lib/lobelia"};
+    // Debian has libraries in lib/ARCHITECTURE.
+    return std::vector{here, here / "lobelia", above / "lobelia"};
+  }();
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place / name)) return place / name;
   return {};
 }
 
