@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "cli/commands.hpp"
 #include "cli/manual_tables.hpp"
 #include "cli/options.hpp"

@@ -2,6 +2,8 @@
 // option's value is completed where it is one of a few words, a file or a directory.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/manual_tables.hpp"
 #include "core/text.hpp"
 

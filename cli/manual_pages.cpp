@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "cli/manual_tables.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"

@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <exception>
 #include <limits>
+#include <span>
 
 #include "compare/compare.hpp"
 #include "compare/profile/blob.hpp"

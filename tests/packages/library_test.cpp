@@ -49,12 +49,13 @@ TEST(Library, example_builds_by_cmake_and_runs) {
 }
 
 TEST(Library, example_builds_by_pkg_config_and_runs) {
+  fs::copy_file(kSource + "/examples/cpp/highlight.cpp", installed_tree().work() / "example.cpp");
+  // pkg-config escapes a path for the shell.
   const Ran built = installed_tree().shell(
       kLibraries +
       "export PKG_CONFIG_PATH=\"$libraries/pkgconfig\"; eval \"c++ -std=c++17 -Wall "
-      "-Wextra -Wpedantic -Werror $(pkg-config --cflags lobelia) " +
-      house::quoted(kSource + "/examples/cpp/highlight.cpp") +
-      " -o by_pkg_config $(pkg-config --libs lobelia)\"");
+      "-Wextra -Wpedantic -Werror $(pkg-config --cflags lobelia) example.cpp "
+      "-o by_pkg_config $(pkg-config --libs lobelia)\"");
   ASSERT_EQ(built.exit_code, 0) << built.output;
   expect_example_works(kLibraries + "LD_LIBRARY_PATH=$libraries ./by_pkg_config");
 }

@@ -1,6 +1,7 @@
 // Man pages and completions, by man itself and by the shells.
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <regex>
 #include <set>
 
