@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
@@ -19,7 +20,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 
 fs::path find_companion(std::string_view name) {
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+  const fs::path here = own_file().parent_path();
   for (const fs::path& directory : {here, here.parent_path() / "lib" / "lobelia"})
     if (fs::exists(directory / name)) return directory / name;
   return {};
@@ -29,7 +30,7 @@ fs::path companion_file(const char* name) {
   if (fs::path found = find_companion(name); !found.empty()) return found;
   throw Error(ExitCode::kInternal,
               fmt::format("{} is neither beside the program in {} nor in ../lib/lobelia", name,
-                          fs::read_symlink("/proc/self/exe").parent_path().string()));
+                          own_file().parent_path().string()));
 }
 
 namespace {
