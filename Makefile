@@ -42,7 +42,7 @@ references: ## measures how far ours and every engine are from the formulas, int
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
 test: ## builds everything and runs the test suite
-	$(setup) build engines browser shaders slurm
+	$(setup) build engines browser shaders slurm python
 	$(npm)
 	$(configure)
 	$(build)

@@ -1,0 +1,46 @@
+// lobelia._lobelia: what the package python/lobelia is made of.
+#include "python/module.hpp"
+
+#include "cli/commands.hpp"
+#include "core/error.hpp"
+#include "core/threads.hpp"
+#include "core/version.hpp"
+
+namespace lobelia {
+
+/// For records: there is no command line.
+const std::vector<std::string>& cli::command_line() {
+  static const std::vector<std::string> words{"python3", "-m", "lobelia"};
+  return words;
+}
+
+namespace python {
+
+void add_errors(py::module_& module) {
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kInterrupted) return PyErr_SetNone(PyExc_KeyboardInterrupt);
+      const py::object made =
+          py::module_::import("lobelia._errors").attr("error_of")(int(error.code()), error.lines());
+      PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
+    }
+  });
+  module.attr("version") = kVersion;
+}
+
+}  // namespace python
+}  // namespace lobelia
+
+PYBIND11_MODULE(_lobelia, module) {
+  using namespace lobelia::python;
+  lobelia::keep_to_usual_threads();
+  add_errors(module);
+  add_lobes(module);
+  add_pictures(module);
+  add_compare(module);
+  add_profile(module);
+  add_render(module);
+  add_farm(module);
+}
