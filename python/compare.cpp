@@ -171,24 +171,32 @@ py::array map_array(const Compared& compared, const std::string& id) {
   return py::array_t<float>(std::vector<py::ssize_t>{a.height(), a.width()}, kept->data(), owner);
 }
 
+/// The map's own scale: to its largest value, to 1, or over the exposures.
+ColourScale scale_of(const DifferenceMap& map, std::span<const float> values,
+                     const Viewing& viewing) {
+  if (map.scale == MapScale::kExposures)
+    return {viewing.hdr_exposures->start_stops, viewing.hdr_exposures->stop_stops};
+  if (map.scale == MapScale::kOne) return 1;
+  double largest = 0;
+  for (const float value : values)
+    if (std::isfinite(value)) largest = std::max(largest, double(std::abs(value)));
+  return largest > 0 ? largest : 1;
+}
+
 py::bytes map_png(const Compared& compared, const std::string& id) {
   const DifferenceMap& map = map_of(id);
   const Image &a = compared.pictures.a.image, &b = compared.pictures.b.image;
-  const std::vector<float> values =
-      measure_difference_map(map, a, b, compared.report.comparison->viewing);
-  double largest = map.scale == MapScale::kLargest ? 0 : 1;
-  if (map.scale == MapScale::kLargest)
-    for (const float value : values)
-      if (std::isfinite(value)) largest = std::max(largest, double(std::abs(value)));
-  ColourScale scale(largest > 0 ? largest : 1);
-  if (map.scale == MapScale::kExposures) {
-    const HdrExposures& exposures = *compared.report.comparison->viewing.hdr_exposures;
-    scale = ColourScale(exposures.start_stops, exposures.stop_stops);
-  }
+  const Viewing& viewing = compared.report.comparison->viewing;
   const std::string_view colours = !map.colours.empty() ? map.colours
                                    : map.is_signed      ? kSignedColourMap
                                                         : kDefaultColourMap;
-  return png_of(colour_picture(values, a.width(), a.height(), scale, colours));
+  DisplayImage picture;
+  run(py::none(), [&](const ShowProgress&) {
+    const std::vector<float> values = measure_difference_map(map, a, b, viewing);
+    picture =
+        colour_picture(values, a.width(), a.height(), scale_of(map, values, viewing), colours);
+  });
+  return png_of(picture);
 }
 
 }  // namespace

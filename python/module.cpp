@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/threads.hpp"
 #include "core/version.hpp"
 
@@ -22,8 +23,10 @@ void add_errors(py::module_& module) {
       std::rethrow_exception(pointer);
     } catch (const Error& error) {
       if (error.code() == ExitCode::kInterrupted) return PyErr_SetNone(PyExc_KeyboardInterrupt);
+      std::vector<std::string> lines;  // as the program prints them
+      for (const std::string& line : error.lines()) lines.push_back(printable(line, 2000));
       const py::object made =
-          py::module_::import("lobelia._errors").attr("error_of")(int(error.code()), error.lines());
+          py::module_::import("lobelia._errors").attr("error_of")(int(error.code()), lines);
       PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
     }
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "accuracy/accuracy.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "python/module.hpp"
@@ -18,32 +19,62 @@ namespace {
 /// The picture, its record and what is odd about the scene.
 using Rendered = std::tuple<py::array, std::string, std::vector<std::string>>;
 
-Rendered render_scene(const py::object& text, const py::dict& given, const py::object& progress) {
-  RenderOptions options;
+/// The options of render(), as those of the command line.
+struct RenderArguments {
+  RenderOptions render;
   cli::SceneOverrides overrides;
   std::string effects = "as-called-for", precision = "sufficient";
-  parse_options(given, [&](CLI::App& app) {
+  std::string accuracy, accuracy_check = "truth";
+
+  void add_to(CLI::App& app) {
     cli::OptionGroup group(app);
-    group.add_number("--threads", options.threads, 0, 1024, "");
+    group.add_number("--threads", render.threads, 0, 1024, "");
     group.add_choice("--effects", effects, {"as-called-for", "all"}, "");
     std::vector<std::string> precisions{"sufficient"};
     precisions.insert(precisions.end(), precision_names().begin(), precision_names().end());
-    group.add_choice("--precision", precision, precisions, "");
-    group.add("--target-error", options.target_error, "", "")->check(cli::between(1e-9, 1.0));
-    group.add("--time-limit", options.time_limit, "", "")->check(cli::between(1e-3, 1e7));
-    group.add("--max-samples", options.max_samples, "", "")->check(cli::between(1, 1 << 20));
+    auto* chosen = group.add_choice("--precision", precision, precisions, "");
+    auto* target = group.add("--target-error", render.target_error, "", "");
+    target->check(cli::between(1e-9, 1.0));
+    auto* time = group.add("--time-limit", render.time_limit, "", "");
+    time->check(cli::between(1e-3, 1e7));
+    group.add("--max-samples", render.max_samples, "", "")->check(cli::between(1, 1 << 20));
+    auto* asked = group.add("--accuracy", accuracy, "", "");
+    asked->excludes(chosen)->excludes(target)->excludes(time);
+    group.add_choice("--accuracy-check", accuracy_check, {"truth", "none"}, "")->needs(asked);
     overrides.add_to(app);
-  });
-  options.effects = effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
-  options.precision = find_precision(precision);
+  }
+};
+
+std::optional<accuracy::Choice> choice_of(const Scene& scene, const RenderArguments& given) {
+  if (given.accuracy.empty()) return std::nullopt;
+  return accuracy::choose(scene, accuracy::parse_accuracy(given.accuracy),
+                          given.render.max_samples.value_or(accuracy::kMostChosenSamples));
+}
+
+Rendered render_scene(const py::object& text, const py::dict& options, const py::object& progress) {
+  RenderArguments given;
+  parse_options(options, [&](CLI::App& app) { given.add_to(app); });
+  RenderOptions& how = given.render;
+  how.effects = given.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
+  how.precision = find_precision(given.precision);
   Scene scene = scene_of(text);
-  overrides.apply(scene);
+  given.overrides.apply(scene);
   RenderResult result;
   std::string record;
   run(progress, [&](const ShowProgress& show) {
-    options.on_progress = show;
-    result = render(scene, options);
-    record = records::record_text(render_record(scene, result, cli::command_line(), ""));
+    how.on_progress = show;
+    const std::optional<accuracy::Choice> choice = choice_of(scene, given);
+    if (choice) choice->apply(how);
+    const Scene& rendered = choice ? choice->scene : scene;
+    result = render(rendered, how);
+    records::Render made = render_record(rendered, result, cli::command_line(), "");
+    if (choice) {
+      std::optional<accuracy::Reached> reached;
+      if (given.accuracy_check != "none")
+        reached = accuracy::measure_reached(scene, *choice, result.image);
+      made.accuracy = accuracy::accuracy_record(*choice, reached);
+    }
+    record = records::record_text(made);
   });
   return {array_of(std::move(result.image)), record, warnings_of(scene)};
 }

@@ -33,15 +33,15 @@ from ._errors import (
     NoResourcesError,
     OutputError,
     UsageError,
-    Warning,
 )
+from ._errors import Warning as Warning  # not in __all__, where it would hide Python's
 from ._lobes import Lobe, albedo, catalogue, coefficient, lobe, lobes, models, radiance
 from ._record import Comparison, Picture, Record
 
 __version__ = _lobelia.version
 __all__ = [
     "Comparison", "EngineError", "Error", "InputError", "InternalError", "Lobe", "NoResourcesError",
-    "OutputError", "Picture", "Record", "UsageError", "Warning", "albedo", "catalogue", "coefficient",
+    "OutputError", "Picture", "Record", "UsageError", "albedo", "catalogue", "coefficient",
     "compare", "cost", "engines", "farm", "lobe", "lobes", "models", "profile", "radiance", "read",
     "reference", "render", "scene_xml", "scenes", "write",
 ]  # fmt: skip
@@ -115,7 +115,9 @@ def render(scene: SceneLike, progress: Progress = None, **options: Any) -> Pictu
 
     Options: `model`, `lobe`, `formula`, `normalisation`, `exponent`, `width` and `height` in pixels, `samples` of a
     pixel and `seed` replace what the scene says. `threads` (0 is all processors), `effects` ("as-called-for", "all"),
-    `precision`, `target_error` (relative), `time_limit` in seconds and `max_samples` say how to render.
+    `precision`, `target_error` (relative), `time_limit` in seconds and `max_samples` say how to render. `accuracy`
+    ("1e-3" of the peak, or "de2000=1") chooses the cheapest settings: `record.accuracy` says which, and what was
+    reached, unless `accuracy_check` is "none".
 
     The result's `record` is what the command line writes beside a picture.
 

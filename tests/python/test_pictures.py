@@ -1,5 +1,6 @@
 """Rendering, comparing and measuring pictures."""
 
+import concurrent.futures
 import json
 import os
 import signal
@@ -159,7 +160,9 @@ def test_maps_of_exposures_need_exposures(image):
     for name in hdr:
         with pytest.raises(lobelia.UsageError, match="exposures"):
             lobelia.compare(image, image).maps[name]
-        assert lobelia.compare(image, image, exposures="-2,2").maps[name].shape == image.shape[:2]
+        seen = lobelia.compare(image, image, exposures="-2,2")
+        assert seen.maps[name].shape == image.shape[:2]
+        assert seen.map_png(name).startswith(b"\x89PNG")
 
 
 def test_html_is_escaped(image, tmp_path):
@@ -270,6 +273,34 @@ def test_errors_have_the_sentence_and_the_code_of_the_command_line(
     assert raised.value.exit_code == code
     # The list of all metrics grows with those that this process has measured.
     assert str(raised.value).split("; there are ")[0] in said
+
+
+def test_names_of_files_need_not_be_utf8(image, tmp_path):
+    name = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.exr")
+    with pytest.raises(lobelia.InputError, match=r"\\xff.exr"):
+        lobelia.read(name)
+    lobelia.write(name, image)
+    assert lobelia.compare(name, image).a.endswith("\\xff.exr")
+
+
+def test_several_threads_may_call_at_once(scene, image, tmp_path):
+    lobelia.write(tmp_path / "a.exr", image)
+    expected = lobelia.compare(image, image).to_dict()["metrics"]
+
+    def work(i):
+        one = lobelia.render(scene, width=96, height=96)
+        assert np.array_equal(one, lobelia.read(tmp_path / "a.exr"))
+        return lobelia.compare(one, image).to_dict()["metrics"] == expected
+
+    with concurrent.futures.ThreadPoolExecutor(8) as pool:
+        assert all(pool.map(work, range(24)))
+
+
+def test_an_accuracy_chooses_the_settings(scene):
+    chosen = lobelia.render(scene, accuracy="1e-3", width=64, height=64).record.accuracy
+    assert chosen.reached.value <= 1e-3
+    with pytest.raises(lobelia.UsageError, match="excludes"):
+        lobelia.render(scene, accuracy="1e-3", precision="float64")
 
 
 def test_unknown_options_get_a_suggestion(scene, image):
