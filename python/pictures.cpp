@@ -1,4 +1,6 @@
 // Pictures as arrays, and their files.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 

@@ -8,6 +8,14 @@ import zipfile
 import pytest
 from conftest import ROOT
 
+CODE = """
+import lobelia
+image = lobelia.render(lobelia.scenes()["head_on"], width=32, height=32)
+lobelia.write("a.exr", image)
+assert lobelia.compare("a.exr", image).passed
+print(lobelia.__file__)
+"""
+
 
 def test_the_wheel_works_where_it_is_unpacked(tmp_path):
     pytest.importorskip("pip")
@@ -25,15 +33,8 @@ def test_the_wheel_works_where_it_is_unpacked(tmp_path):
     place = tmp_path / "site"
     subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps",
                     "--target", place, wheel], check=True)  # fmt: skip
-    code = """
-import lobelia
-image = lobelia.render(lobelia.scenes()["head_on"], width=32, height=32)
-lobelia.write("a.exr", image)
-assert lobelia.compare("a.exr", image).passed
-print(lobelia.__file__)
-"""
     environment = {**os.environ, "PYTHONPATH": str(place), "LOBELIA_BUILD": ""}
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment,
+    done = subprocess.run([sys.executable, "-c", CODE], cwd=tmp_path, env=environment,
                           capture_output=True, text=True)  # fmt: skip
     assert done.stdout.strip() == str(place / "lobelia/__init__.py"), done.stderr
 
@@ -42,3 +43,14 @@ print(lobelia.__file__)
     run = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", suite],
                          cwd=tmp_path, env=environment, capture_output=True, text=True)  # fmt: skip
     assert "1 passed" in run.stdout, run.stdout + run.stderr
+
+
+def test_what_cmake_installs_works_where_it_is(tmp_path):
+    """The layout of Debian's package."""
+    build = os.environ["LOBELIA_BUILD"]
+    subprocess.run(["cmake", "--install", build, "--prefix", tmp_path], check=True,
+                   stdout=subprocess.DEVNULL)  # fmt: skip
+    place = tmp_path / "lib/python3/dist-packages"
+    done = subprocess.run([sys.executable, "-c", CODE], cwd=tmp_path, capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(place)})  # fmt: skip
+    assert done.stdout.strip() == str(place / "lobelia/__init__.py"), done.stderr
