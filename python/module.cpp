@@ -8,14 +8,22 @@
 #include "core/version.hpp"
 
 namespace lobelia {
+namespace {
+std::vector<std::string> g_command_line{"python3"};
+}  // namespace
 
-/// For records: there is no command line.
-const std::vector<std::string>& cli::command_line() {
-  static const std::vector<std::string> words{"python3", "-m", "lobelia"};
-  return words;
-}
+/// For records: Python's own.
+const std::vector<std::string>& cli::command_line() { return g_command_line; }
 
 namespace python {
+namespace {
+
+void take_command_line() {
+  const py::list words = py::module_::import("sys").attr("orig_argv");
+  for (std::size_t i = 1; i < words.size(); ++i) g_command_line.push_back(path_of(words[i]));
+}
+
+}  // namespace
 
 void add_errors(py::module_& module) {
   py::register_exception_translator([](std::exception_ptr pointer) {
@@ -31,6 +39,7 @@ void add_errors(py::module_& module) {
     }
   });
   module.attr("version") = kVersion;
+  take_command_line();
 }
 
 }  // namespace python

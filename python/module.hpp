@@ -48,6 +48,7 @@ py::bytes png_of(const DisplayImage& picture);
 bool is_path(const py::object& object);
 std::string path_of(const py::object& path);
 
+/// Exceptions, and what the module says of itself.
 void add_errors(py::module_& module);
 void add_lobes(py::module_& module);
 void add_pictures(py::module_& module);

@@ -255,7 +255,8 @@ def farm(
     """Renders and compares every cell of a grid (docs/farm.md), on this machine.
 
     It writes cells and records into `directory` as `lobelia farm` does, and returns the record of the whole,
-    farm.json. What is in the cache is not made again. After Ctrl-C the same call goes on from there.
+    farm.json. What is in the cache is not made again. After Ctrl-C the same call goes on from there. Failures and absent
+    engines are warnings; each of `cells` has its status.
 
     Options: `cache`, `filter`, `threads`, `time_limit`, `no_progress_limit`, `attempts`, `memory`, `disk`,
     `fail_fast`, `again`, `require_engines`, `allow_commands`, and an engine's name for its path.

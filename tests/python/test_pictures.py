@@ -379,6 +379,21 @@ def test_a_farm_gives_its_record_and_goes_on(scene, tmp_path):
         lobelia.farm(scene, tmp_path / "other")
 
 
+def test_a_farm_that_is_stopped_goes_on_from_there(scene, tmp_path):
+    grid = tmp_path / "grid.xml"
+    grid.write_text(f"""<grid version="1"><scene file="{scene}"/><film width="300" height="300"/>
+      <axis name="exponent" values="16, 32, 64, 128, 256"/><engine name="analytic"/></grid>""")
+
+    def stop(fraction):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        lobelia.farm(grid, tmp_path / "out", stop)
+    record = lobelia.farm(grid, tmp_path / "out")
+    assert {cell.status for cell in record.cells} == {"pass"}
+    assert not list((tmp_path / "out").rglob("*.part*"))
+
+
 def test_a_farm_has_the_identity_of_the_module_and_not_of_python(scene, tmp_path):
     """Otherwise two versions of the package would share results."""
     grid = tmp_path / "grid.xml"
