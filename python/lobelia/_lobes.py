@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _lobelia
+from ._errors import UsageError
 from ._record import Record
 
 Floats = Union[NDArray[np.float32], NDArray[np.float64]]
@@ -82,7 +83,10 @@ class Lobe:
         >>> lobe("cosine").value(np.zeros((3, 1), np.float32), np.ones(2, np.float32)).dtype
         dtype('float32')
         """
-        if np.result_type(np.asarray(s), np.asarray(n)) in (np.float32, np.float16):
+        dtype = np.result_type(np.asarray(s), np.asarray(n))
+        if dtype.kind not in "fiub":
+            raise UsageError(f"s and n are numbers, not {dtype}")
+        if dtype in (np.float32, np.float16):
             return _scalar(self._lobe.value32(s, n))
         return _scalar(self._lobe.value64(s, n))
 

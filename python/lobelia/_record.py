@@ -262,7 +262,7 @@ class Picture(np.ndarray):  # type: ignore[type-arg]
     """(height, width, 3) float32, scene-linear light with Rec. 709 primaries, row 0 at the top.
 
     It is an array that a notebook shows as a picture, brightened until its peak is white. `record` is that of the
-    render it came from, or None.
+    render that made it. A copy, a part or a result of arithmetic has None.
     """
 
     record: Union[Record, None]
@@ -273,7 +273,7 @@ class Picture(np.ndarray):  # type: ignore[type-arg]
         return made
 
     def __array_finalize__(self, other: Any) -> None:
-        self.record = getattr(other, "record", None)
+        self.record = None
 
     def to_png(self, exposure: float = 0) -> bytes:
         """The bytes of an 8-bit sRGB PNG, `exposure` stops brighter."""

@@ -114,7 +114,7 @@ def test_shapes_that_do_not_fit_are_named():
 
 def test_what_is_no_number_is_refused():
     for bad in ("text", [object()], [1j]):
-        with pytest.raises((TypeError, ValueError)):
+        with pytest.raises(lobelia.UsageError, match="s and n are numbers"):
             lobelia.lobe("cs16").value(bad, 8)
 
 

@@ -43,6 +43,7 @@ def test_a_picture_knows_its_record_and_shows_itself(image):
     assert image.record.highlights[0].exponent == 64
     assert image._repr_png_().startswith(b"\x89PNG")
     assert image[0]._repr_png_() is None
+    assert (image * 2).record is None and image.copy().record is None
     assert np.zeros((4, 4, 3), np.float32).view(lobelia.Picture)._repr_png_().startswith(b"\x89PNG")
 
 
