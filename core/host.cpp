@@ -102,9 +102,12 @@ std::string find_build_id() {
 }  // namespace
 
 fs::path own_file() {
-  std::string library;
-  ::dl_iterate_phdr(take_own_name, &library);
-  return library.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(library);
+  static const fs::path file = [] {
+    std::string library;
+    ::dl_iterate_phdr(take_own_name, &library);
+    return library.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(library);
+  }();
+  return file;
 }
 
 std::string processor_name() {

@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
 #include "core/version.hpp"
@@ -40,6 +41,7 @@ void add_errors(py::module_& module) {
   });
   module.attr("version") = kVersion;
   take_command_line();
+  own_file();  // as long as the path that Python knows is good
 }
 
 }  // namespace python

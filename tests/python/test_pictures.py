@@ -285,6 +285,22 @@ def test_names_of_files_need_not_be_utf8(image, tmp_path):
     assert lobelia.compare(name, image).a.endswith("\\xff.exr")
 
 
+def test_the_module_may_be_found_by_a_relative_path(tmp_path):
+    package = os.path.dirname(os.path.dirname(lobelia.__file__))
+    code = f"""
+import os, sys
+os.chdir({package!r})
+sys.path[:] = ["."] + [one for one in sys.path if one != {package!r}]
+import lobelia
+os.chdir({str(tmp_path)!r})
+lobelia.write("a.exr", lobelia.render(lobelia.scenes()["head_on"], width=8, height=8))
+print(lobelia.read("a.exr").shape)
+"""
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert done.stdout == "(8, 8, 3)\n", done.stderr
+
+
 def test_several_threads_may_call_at_once(scene, image, tmp_path):
     lobelia.write(tmp_path / "a.exr", image)
     expected = lobelia.compare(image, image).to_dict()["metrics"]
