@@ -465,36 +465,5 @@ TEST(Pages, ci_runs_only_what_the_readme_says) {
   EXPECT_EQ(found, 3);
 }
 
-/// Links of a page to files that are not there.
-Problems dead_links(const fs::path& root, const fs::path& page) {
-  static const std::regex link(R"re(\]\(([^)#\s]+)(?:#[^)\s]*)?\))re");
-  Problems problems;
-  const std::string text = read(root / page);
-  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
-    const std::string target = (*it)[1];
-    if (target.find("://") != std::string::npos || target.starts_with("mailto:")) continue;
-    if (!fs::exists(root / page.parent_path() / target))
-      problems.push_back(page.string() + ": " + target);
-  }
-  return problems;
-}
-
-TEST(Pages, every_link_to_a_file_leads_somewhere) {
-  int pages = 0;
-  for (const fs::path& file : project_files(kRoot)) {
-    if (file.extension() != ".md") continue;
-    ++pages;
-    EXPECT_THAT(dead_links(kRoot, file), IsEmpty());
-  }
-  EXPECT_GT(pages, 1);
-}
-
-TEST(Pages, dead_links_are_found) {
-  Scratch tree;
-  write(tree / "docs/a.md", "[b](b.md#x) [c](../c.md) [d](https://example.org/d.md)");
-  write(tree / "docs/b.md", "");
-  EXPECT_THAT(dead_links(tree.path(), "docs/a.md"), ElementsAre(HasSubstr("../c.md")));
-}
-
 }  // namespace
 }  // namespace house
