@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <vector>
 
@@ -39,15 +40,23 @@ TEST(PageCommands, AreOnThesePages) {
                             "docs/tutorials/first_gallery.md", "docs/tutorials/first_gate.md"}));
 }
 
-TEST(PageCommands, Run) {
-  for (const std::string& page : pages_with_commands()) {
-    const std::string commands = page_commands(page);
-    if (commands.find("povray") != commands.npos && missing("povray")) continue;
-    const TemporaryDirectory directory;
-    const ProcessResult result = run_commands(commands, directory.path());
-    EXPECT_EQ(result.exit_code, 0) << page << "\n" << result.output_tail;
-  }
+class PageCommandsOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(PageCommandsOf, ThisPageRun) {
+  const std::string commands = page_commands(GetParam());
+  if (commands.find("povray") != commands.npos && missing("povray")) GTEST_SKIP() << "no povray";
+  const TemporaryDirectory directory;
+  const ProcessResult result = run_commands(commands, directory.path());
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
 }
+
+INSTANTIATE_TEST_SUITE_P(Pages, PageCommandsOf, testing::ValuesIn(pages_with_commands()),
+                         [](const auto& page) {
+                           std::string name = page.param;
+                           std::ranges::replace_if(
+                               name, [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
 
 TEST(PageCommands, ThatFailAreFound) {
   const TemporaryDirectory directory;
