@@ -8,6 +8,7 @@ JOBS   ?= $(shell nproc)
 SETUP  ?= yes
 FUZZ_SECONDS ?= 60
 MINUTES ?= 10
+PREFIX  ?= /usr/local
 SEED    ?= $(shell date +%s)
 
 # SETUP=no: for systems whose packages have other names than Debian's.
@@ -17,14 +18,14 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery references test sanitize sanitize-short build bench fuzz chaos lint clean
+.PHONY: help gallery references test sanitize sanitize-short build bench fuzz chaos lint install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /make \1\t/p' Makefile | expand -t 24
 	@echo
 	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
-	@echo 'GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
+	@echo 'PREFIX (where install copies to), GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	@echo 'make gallery: from a fresh clone about 6 minutes on 2 idle cores, plus 1 or 2 to install missing packages'
@@ -42,7 +43,7 @@ references: ## measures how far ours and every engine are from the formulas, int
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
 test: ## builds everything and runs the test suite
-	$(setup) build engines browser shaders slurm
+	$(setup) build engines browser shaders slurm python packaging
 	$(npm)
 	$(configure)
 	$(build)
@@ -95,6 +96,22 @@ ifeq ($(TIDY),yes)
 	$(build)
 	@scripts/lint tidy "build/$(PRESET)" "$(JOBS)"
 endif
+
+install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
+	$(setup) build
+	$(configure)
+	$(build) --target installed
+	@scripts/install "build/$(PRESET)" "$(PREFIX)"
+
+uninstall: ## removes what install copied to PREFIX, and no file that was changed since
+	@scripts/install --remove "$(PREFIX)"
+
+package: ## builds Debian packages into build/release/packages
+	$(setup) build packaging
+	$(configure)
+	$(build) --target installed
+	cd "build/$(PRESET)" && cpack > packages.log 2>&1 || { cat packages.log; exit 1; }
+	@ls "build/$(PRESET)"/packages/*.deb
 
 clean: ## removes what make built: build/ and out/
 	rm -rf build out

@@ -15,7 +15,7 @@ namespace lobelia::cli {
   command(render) command(plan) command(models) command(scene) command(scene_format)             \
       command(export) command(convert) command(check_shader) command(engines) command(reference) \
           command(compare) command(profile) command(cost) command(search) command(farm)          \
-              command(gallery) command(verify) command(records)
+              command(gallery) command(verify) command(records) command(manual)
 #define LOBELIA_DECLARE(name) void add_##name(CLI::App& app, ExitCode& exit_code);
 LOBELIA_COMMANDS(LOBELIA_DECLARE)
 #undef LOBELIA_DECLARE

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -43,8 +42,27 @@ std::uint64_t resident(pid_t process) {
 
 std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
-/// Reads the build ID of the first object, which is the program itself.
+/// Whether the object has this code.
+bool has_this_code(const dl_phdr_info& object) {
+  const auto here = reinterpret_cast<ElfW(Addr)>(&has_this_code);
+  for (int i = 0; i < object.dlpi_phnum; ++i) {
+    const auto& part = object.dlpi_phdr[i];
+    if (part.p_type == PT_LOAD && here - (object.dlpi_addr + part.p_vaddr) < part.p_memsz)
+      return true;
+  }
+  return false;
+}
+
+/// Takes the name of the object with this code. It is empty for the program.
+int take_own_name(dl_phdr_info* object, std::size_t, void* result) {
+  if (!has_this_code(*object)) return 0;
+  *static_cast<std::string*>(result) = object->dlpi_name;
+  return 1;
+}
+
+/// Reads the build ID of the object with this code.
 int take_build_id(dl_phdr_info* object, std::size_t, void* result) {
+  if (!has_this_code(*object)) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& part = object->dlpi_phdr[i];
     if (part.p_type != PT_NOTE) continue;
@@ -74,7 +92,7 @@ std::string find_build_id() {
   ::dl_iterate_phdr(take_build_id, &id);
   if (!id.empty()) return id;
   try {
-    return hex(sha256_of_file("/proc/self/exe"));
+    return hex(sha256_of_file(own_file()));
   } catch (const Error& error) {
     throw Error(ExitCode::kInternal,
                 fmt::format("the program cannot tell which build it is: {}", error.what()));
@@ -82,6 +100,15 @@ std::string find_build_id() {
 }
 
 }  // namespace
+
+fs::path own_file() {
+  static const fs::path file = [] {
+    std::string library;
+    ::dl_iterate_phdr(take_own_name, &library);
+    return library.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(library);
+  }();
+  return file;
+}
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -32,8 +33,12 @@ std::uint64_t memory_of_tree(pid_t process, bool exactly = false);
 /// How many processes this kernel has killed for lack of memory since it started; nothing if it does not tell.
 std::optional<std::uint64_t> count_of_oom_kills();
 
-/// The GNU build ID of the running program in hexadecimal, which is the same for the same code; without one, the SHA-256
-/// of the program's file. Throws Error(kInternal) if neither can be read.
+/// The file with this code, without links: the program, or a shared library such as the Python module. Throws
+/// std::filesystem::filesystem_error if /proc cannot be read.
+std::filesystem::path own_file();
+
+/// The GNU build ID of own_file() in hexadecimal, which is the same for the same code; without one, the SHA-256 of the
+/// file. Throws Error(kInternal) if neither can be read.
 const std::string& build_id();
 
 }  // namespace lobelia

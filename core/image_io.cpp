@@ -6,10 +6,12 @@
 #include <sys/mman.h>
 
 #include <cerrno>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
@@ -19,17 +21,22 @@ namespace lobelia {
 namespace fs = std::filesystem;
 
 fs::path find_companion(std::string_view name) {
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& directory : {here, here.parent_path() / "lib" / "lobelia"})
-    if (fs::exists(directory / name)) return directory / name;
+  // Looked up once, because the library's name may be relative to the directory that the program began in.
+  static const std::vector<fs::path> places = [] {
+    const fs::path file = own_file(), here = file.parent_path(), above = here.parent_path();
+    if (file == fs::read_symlink("/proc/self/exe")) return std::vector{here, above / "lib/lobelia"};
+    // Debian has libraries in lib/ARCHITECTURE.
+    return std::vector{here, here / "lobelia", above / "lobelia"};
+  }();
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place / name)) return place / name;
   return {};
 }
 
 fs::path companion_file(const char* name) {
   if (fs::path found = find_companion(name); !found.empty()) return found;
-  throw Error(ExitCode::kInternal,
-              fmt::format("{} is neither beside the program in {} nor in ../lib/lobelia", name,
-                          fs::read_symlink("/proc/self/exe").parent_path().string()));
+  throw Error(ExitCode::kInternal, fmt::format("{} is neither beside {} nor in ../lib/lobelia",
+                                               name, own_file().string()));
 }
 
 namespace {

@@ -40,10 +40,10 @@ inline constexpr char kImageIoTableSymbol[] = "lobelia_image_io_table";
 /// Loads the module at the first call. Throws Error(kInternal) if it is not there.
 const ImageIoTable& image_io_table();
 
-/// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia. Throws
-/// Error(kInternal) if it is in neither.
+/// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia; for the
+/// shared library beside that, or in lobelia/ or ../lobelia. Throws Error(kInternal) if it is in none.
 std::filesystem::path companion_file(const char* name);
-/// Empty if it is in neither.
+/// Empty if it is in none.
 std::filesystem::path find_companion(std::string_view name);
 
 }  // namespace lobelia

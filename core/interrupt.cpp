@@ -140,6 +140,10 @@ void end_by_ourselves_when_interrupted() { g_ends_soon = false; }
 
 bool interrupted() { return g_signal != 0; }
 
+void request_interrupt() { g_signal = SIGINT; }
+
+void forget_interrupt() { g_signal = 0; }
+
 ExitCode interrupt_exit_code() {
   return g_signal == 0 ? ExitCode::kInterrupted : ExitCode(128 + g_signal);
 }

@@ -22,6 +22,10 @@ void end_soon_when_interrupted();
 void end_by_ourselves_when_interrupted();
 /// True once the user has asked to stop.
 bool interrupted();
+/// What a Ctrl-C does, for a program that catches signals itself: work that looks at interrupted() stops.
+void request_interrupt();
+/// Takes it back once that work has stopped.
+void forget_interrupt();
 /// 128 + the number of the first signal: kInterrupted, kTerminated or kHungUp.
 ExitCode interrupt_exit_code();
 /// Throws Error(kInterrupted) if interrupted().

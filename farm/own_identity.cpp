@@ -55,8 +55,7 @@ Content find_libraries() {
   FileHashes& hashes = FileHashes::of_user();
   ContentReader reader(hashes);
   const std::string loader = find_loader();
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  const fs::path program = own_file();
   const fs::path module = companion_file(kImageIoModuleFile);
   const fs::path picture_reader = companion_file(kReaderFile);
   for (const fs::path& own : {module, picture_reader})

@@ -94,11 +94,14 @@ std::string scene_format_document() {
   std::string text = fmt::format(
       R"--(# Scene files, format version {}
 
-XML in the spirit of Mitsuba's: elements with a `type`, parameters as `<float name= value=>`,
-a camera by `<lookat>`, materials inside their shape or by `<ref id=>`. Whoever knows that
-format is at home. Scenes to begin with are in [reference_scenes/scenes](../reference_scenes/scenes),
-those of its `effects/` with a light of some size, mirrors or a lens. This page is printed by
-`lobelia scene-format`.
+For anyone who writes a scene by hand or by a program. [Write a scene](howto/write_a_scene.md) is a
+gentler start.
+
+The syntax follows Mitsuba's: elements with a `type`, parameters as `<float name= value=>`, a camera
+by `<lookat>`, materials inside their shape or by `<ref id=>`. The types and versions differ, so a
+Mitsuba scene is not a Lobelia scene. `lobelia scene --from mitsuba` [converts it](howto/convert_from_mitsuba.md).
+Example scenes are in [reference_scenes/scenes](../reference_scenes/scenes); those in `effects/`
+have area lights, mirrors or a lens. `lobelia scene-format` prints this page.
 
 ```xml
 <scene version="{}">
@@ -125,7 +128,8 @@ those of its `effects/` with a light of some size, mirrors or a lens. This page 
 
 A point or a vector is `value="x, y, z"` or `x= y= z=`; a colour is one number (grey) or
 three (linear Rec. 709). Right-handed; units and directions: [conventions](conventions.md).
-Every error is reported with its line and column, all of them in one run. Limits: {} MiB,
+Errors are reported together, each with its line and column. An element of an unknown type is not
+read further: errors inside it appear once the type is right. Limits: {} MiB,
 {} emitters, {} spheres, {} planes, {} materials, {} pixels. No DOCTYPE and no entities.
 
 `<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`, and

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/run_lobelia.hpp"
+#include "tests/cli/page_commands.hpp"
 
 namespace lobelia {
 namespace {
@@ -20,21 +20,10 @@ class TryALobe : public testing::Test {
   const TemporaryDirectory directory_;
 };
 
-/// The commands of the section "Try a lobe" of docs/scene_format.md.
-std::string commands_of_the_page() {
-  const std::string page =
-      read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/scene_format.md", 1 << 20);
-  const std::size_t section = page.find("## Try a lobe"), begin = page.find("```sh\n", section) + 6;
-  return page.substr(begin, page.find("```", begin) - begin);
-}
-
 TEST_F(TryALobe, ByTheCommandsOfThePage) {
-  const std::string commands = commands_of_the_page();
+  const std::string commands = page_commands("docs/scene_format.md", "## Try a lobe");
   ASSERT_THAT(commands, HasSubstr("lobelia render"));
-  const auto result = run_shell(
-      "set -e\nln -s \"${SCENES%scenes/}\" reference_scenes\nlobelia() { \"$LOBELIA\" \"$@\"; }\n" +
-          commands,
-      directory_.path());
+  const auto result = run_commands(commands, directory_.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(text("idea.glsl"), HasSubstr("--formula"));
 }

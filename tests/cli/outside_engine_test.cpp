@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/text.hpp"
-#include "run_lobelia.hpp"
+#include "tests/cli/page_commands.hpp"
 #include "tests/json.hpp"
 
 namespace lobelia {
@@ -293,31 +293,16 @@ TEST_F(OutsideEngines, ThatIsDescribedWronglyIsAnErrorWithItsLine) {
   EXPECT_THAT(farm().output_tail, HasSubstr("allowed: an engine of this grid"));
 }
 
-/// The commands of docs/own_engine.md, in their order.
-std::string commands_of_the_page() {
-  const std::string page =
-      read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/own_engine.md", 1 << 20);
-  std::string commands;
-  for (std::size_t at = 0; (at = page.find("```sh\n", at)) != page.npos;) {
-    at += 6;
-    commands += page.substr(at, page.find("```", at) - at);
-  }
-  return commands;
-}
-
 TEST_F(OutsideEngines, OfTheTutorialBecomesAColumnByTheCommandsOfItsPage) {
   if (find_program("python3").empty()) {
     ASSERT_FALSE(std::getenv("LOBELIA_REQUIRE_ENGINES")) << "no python3";
     GTEST_SKIP() << "no python3";
   }
-  for (const char* folder : {"docs", "reference_scenes"})
-    fs::create_directory_symlink(fs::path(LOBELIA_SOURCE_DIR) / folder, path(folder));
-  const std::string commands = commands_of_the_page();
+  const std::string commands = page_commands("docs/own_engine.md");
   EXPECT_GE(std::ranges::count(commands, '\n'), 6);
-  const ProcessResult result = run_shell(
-      "set -e\nlobelia() { \"$LOBELIA\" \"$@\" < /dev/null; code=$?; [ $code = 5 ] || return $code; }\n" +
-          commands,
-      directory_.path());
+  const ProcessResult result = run_commands(
+      commands, directory_.path(),
+      "lobelia() { \"$LOBELIA\" \"$@\" < /dev/null; code=$?; [ $code = 5 ] || return $code; }\n");
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   std::size_t cells = 0;
   for (const auto& entry : fs::directory_iterator(path("out/own/cells"))) {

@@ -1,0 +1,17 @@
+# What `cmake --install` copies. Programs find their parts from where they lie, so the whole tree may be moved.
+# The components are the Debian packages: cmake/lobelia_packages.cmake.
+set(LOBELIA_DATA share/lobelia)
+set(LOBELIA_DOCS share/doc/lobelia)
+
+# Grids name their scenes as ../scenes/NAME.xml.
+install(DIRECTORY reference_scenes/scenes reference_scenes/grids DESTINATION ${LOBELIA_DATA})
+install(DIRECTORY docs/reference/ DESTINATION ${LOBELIA_DATA}/schemas FILES_MATCHING PATTERN *.schema.json)
+install(FILES README.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
+
+# Builds all that is installed, and no test: `cmake --build BUILD --target installed`.
+add_custom_target(installed DEPENDS lobelia lobelia_image_io lobelia_api manual)
+
+if(EXISTS /etc/debian_version)
+  include(lobelia_packages)
+endif()

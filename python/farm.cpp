@@ -1,0 +1,136 @@
+// Long work: farms and benchmarks.
+#include "farm/farm.hpp"
+
+#include <algorithm>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "core/host.hpp"
+#include "core/image_io_module.hpp"
+#include "farm/failed_jobs.hpp"
+#include "farm/upkeep.hpp"
+#include "python/module.hpp"
+#include "records/record.hpp"
+#include "reference_scenes/engines/outside/outside.hpp"
+#include "renderer/kernels/kernels.hpp"
+#include "studies/cost/benchmarks.hpp"
+
+namespace lobelia::python {
+namespace {
+
+/// farm.json, and the sentences of the summary.
+std::pair<std::string, std::vector<std::string>> farm(const py::object& grid_file,
+                                                      const py::object& given_directory,
+                                                      const py::dict& given,
+                                                      const py::object& progress) {
+  FarmOptions options;
+  std::string filter, memory = "4G", disk = "4G";
+  double time_limit = 600, no_progress_limit = 300;
+  bool allow_commands = false;
+  cli::EnginePrograms programs;
+  parse_options(given, [&](CLI::App& app) {
+    cli::OptionGroup group(app);
+    group.add("--cache", options.cache, "DIR", "");
+    group.add("--filter", filter, "", "");
+    group.add_number("--threads", options.threads, 0, 1024, "");
+    group.add_number("--time-limit", time_limit, 0.1, 1e6, "");
+    group.add_number("--no-progress-limit", no_progress_limit, 0, 1e6, "");
+    group.add_number("--attempts", options.attempts, 1, 100, "");
+    group.add("--memory", memory, "SIZE", "");
+    group.add("--disk", disk, "SIZE", "");
+    group.add_flag("--fail-fast", options.fail_fast, "");
+    group.add_flag("--again", options.again, "");
+    group.add_flag("--require-engines", options.require_engines, "");
+    group.add_flag("--allow-commands", allow_commands, "");
+    programs.add_to(app);
+  });
+  const std::filesystem::path directory = path_of(given_directory);
+  options.programs = programs.given();
+  options.time_limit = std::chrono::duration<double>(time_limit);
+  options.no_progress_limit = std::chrono::duration<double>(no_progress_limit);
+  options.memory = parse_size(memory);
+  options.disk = parse_size(disk);
+  options.failed_directory = std::filesystem::absolute(directory) / FailedJobs::kName;
+  options.filter = JobFilter(filter);
+  options.command = cli::command_line();
+  std::string record;
+  std::vector<std::string> sentences;
+  run(progress, [&, file = path_of(grid_file)](const ShowProgress& show) {
+    const Grid grid = read_grid(file);
+    require_commands_allowed(grid.outside, allow_commands);
+    options.on_progress = [&](const FarmProgress& now) {
+      if (now.total > 0) show(double(now.done) / double(now.total));
+    };
+    const FarmSummary summary = run_farm(grid, directory, options);
+    for (const auto* some : {&summary.problems, &summary.absent_engines, &summary.refusals})
+      sentences.insert(sentences.end(), some->begin(), some->end());
+    sentences.insert(sentences.end(), summary.warnings.begin(), summary.warnings.end());
+    record = records::record_text(records::read_record<records::Farm>(directory / "farm.json"));
+  });
+  return {record, sentences};
+}
+
+std::string cost(const py::list& scenes, const py::dict& given, const py::object& progress) {
+  std::vector<std::string> levels;
+  std::string effort = "usual";
+  cli::EnginePrograms programs;
+  parse_options(given, [&](CLI::App& app) {
+    cli::OptionGroup group(app);
+    group.add("--level", levels, "", "")->expected(1)->take_all();
+    group.add_choice("--effort", effort, {"quick", "usual", "thorough"}, "");
+    programs.add_to(app);
+  });
+  cost::Options options;
+  for (const py::handle scene : scenes) {
+    const auto one = py::reinterpret_borrow<py::object>(scene);
+    const std::string path = path_of(one);
+    options.scenes.push_back({std::filesystem::path(path).stem().string(), scene_of(one)});
+  }
+  options.effort = effort == "quick"      ? cost::Effort::kQuick
+                   : effort == "thorough" ? cost::Effort::kThorough
+                                          : cost::Effort::kUsual;
+  for (const auto& [engine, program] : programs.given())
+    options.programs.emplace_back(engine, program.string());
+  // The level of whole programs starts ours too; this process is Python.
+  const std::string ours = find_companion("lobelia").string();
+  options.programs.emplace_back("lobelia", ours);
+  std::vector<const cost::Benchmark*> chosen;
+  std::vector<std::string_view> names;
+  for (const cost::Benchmark& level : cost::benchmarks()) {
+    names.push_back(level.name);
+    const bool named = std::ranges::count(levels, level.name) > 0;
+    const bool lacks_scene = level.needs_scenes && scenes.empty();
+    if (named && lacks_scene)
+      throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", level.name));
+    const bool lacks_program = level.measure == &cost::measure_engines && ours.empty();
+    if (named && lacks_program)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("--level {} needs the program lobelia, which is not installed with "
+                              "this package",
+                              level.name));
+    if (named || (levels.empty() && !lacks_scene && !lacks_program)) chosen.push_back(&level);
+  }
+  for (const std::string& level : levels) cli::chosen_place(level, "--level", names);
+  std::string record;
+  run(progress, [&](const ShowProgress& show) {
+    records::Cost report{cli::command_line(), records::this_host(), kernels().instruction_set, {}};
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      show(double(i) / double(chosen.size()));
+      for (cost::Table& table : chosen[i]->measure(options)) {
+        cost::add_fronts(table);
+        report.tables.push_back(std::move(table));
+      }
+    }
+    record = records::record_text(report);
+  });
+  return record;
+}
+
+}  // namespace
+
+void add_farm(py::module_& module) {
+  module.def("farm", &farm);
+  module.def("cost", &cost);
+}
+
+}  // namespace lobelia::python

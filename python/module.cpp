@@ -1,0 +1,60 @@
+// lobelia._lobelia: what the package python/lobelia is made of.
+#include "python/module.hpp"
+
+#include "cli/commands.hpp"
+#include "core/error.hpp"
+#include "core/host.hpp"
+#include "core/text.hpp"
+#include "core/threads.hpp"
+#include "core/version.hpp"
+
+namespace lobelia {
+namespace {
+std::vector<std::string> g_command_line{"python3"};
+}  // namespace
+
+/// For records: Python's own.
+const std::vector<std::string>& cli::command_line() { return g_command_line; }
+
+namespace python {
+namespace {
+
+void take_command_line() {
+  const py::list words = py::module_::import("sys").attr("orig_argv");
+  for (std::size_t i = 1; i < words.size(); ++i) g_command_line.push_back(path_of(words[i]));
+}
+
+}  // namespace
+
+void add_errors(py::module_& module) {
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kInterrupted) return PyErr_SetNone(PyExc_KeyboardInterrupt);
+      std::vector<std::string> lines;  // as the program prints them
+      for (const std::string& line : error.lines()) lines.push_back(printable(line, 2000));
+      const py::object made =
+          py::module_::import("lobelia._errors").attr("error_of")(int(error.code()), lines);
+      PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
+    }
+  });
+  module.attr("version") = kVersion;
+  take_command_line();
+  own_file();  // as long as the path that Python knows is good
+}
+
+}  // namespace python
+}  // namespace lobelia
+
+PYBIND11_MODULE(_lobelia, module) {
+  using namespace lobelia::python;
+  lobelia::keep_to_usual_threads();
+  add_errors(module);
+  add_lobes(module);
+  add_pictures(module);
+  add_compare(module);
+  add_profile(module);
+  add_render(module);
+  add_farm(module);
+}

@@ -1,0 +1,60 @@
+// The parts of the Python module lobelia._lobelia, and what they share. The package python/lobelia is what users see; its
+// docstrings say what each function takes.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia::python {
+
+namespace py = pybind11;
+
+/// How far the work is, from 0 to 1. For any thread.
+using ShowProgress = std::function<void(double)>;
+
+/// Runs work on another thread, without the GIL. Meanwhile the calling thread calls `progress`, if it is not None, with
+/// the fraction done, and looks for Ctrl-C. That, or an exception of `progress`, stops work that looks at interrupted().
+void run(const py::object& progress, const std::function<void(const ShowProgress&)>& work);
+
+/// Adds the options that `add` declares to a command line and reads them from Python's: exponent=64 is --exponent=64,
+/// quick=True is --quick, mask=[a, b] is given twice, None is left out. Throws Error(kUsage).
+void parse_options(const py::dict& options, const std::function<void(CLI::App&)>& add);
+
+/// A path, a text that is one, or a text of XML, which begins with '<'. Reads pictures beside the file; of a text from
+/// the working directory. Throws as read_scene().
+Scene scene_of(const py::object& scene);
+/// What is odd about the scene, a sentence each.
+std::vector<std::string> warnings_of(const Scene& scene);
+
+/// The values as (height, width, 3) float32, not copied.
+py::array array_of(Image image);
+/// The same while `owner` lives.
+py::array view_of(const Image& image, const py::object& owner);
+/// A copy, because an Image owns its values. Throws Error(kInput) unless the array is (height, width, 3) floats of a size
+/// that may be compared. `name` is for messages.
+Image image_of(const py::object& array, const std::string& name);
+/// The bytes of a PNG file.
+py::bytes png_of(const DisplayImage& picture);
+/// Whether it is a text or has __fspath__.
+bool is_path(const py::object& object);
+std::string path_of(const py::object& path);
+
+/// Exceptions, and what the module says of itself.
+void add_errors(py::module_& module);
+void add_lobes(py::module_& module);
+void add_pictures(py::module_& module);
+void add_compare(py::module_& module);
+void add_profile(py::module_& module);
+void add_render(py::module_& module);
+void add_farm(py::module_& module);
+
+}  // namespace lobelia::python

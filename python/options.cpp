@@ -1,0 +1,86 @@
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "python/module.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::python {
+namespace {
+
+void add_word(const std::string& name, const py::handle& value, std::vector<std::string>& words) {
+  if (value.is_none()) return;
+  if (py::isinstance<py::bool_>(value)) {
+    if (value.cast<bool>()) words.push_back(name);
+    return;
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    for (const py::handle one : value) add_word(name, one, words);
+    return;
+  }
+  // With '=', so that a negative number is no option.
+  words.push_back(name + "=" + path_of(py::reinterpret_borrow<py::object>(value)));
+}
+
+}  // namespace
+
+bool is_path(const py::object& object) {
+  return py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__");
+}
+
+std::string path_of(const py::object& path) {
+  // Bytes, because a file's name need not be UTF-8.
+  return py::bytes(is_path(path) ? py::module_::import("os").attr("fsencode")(path)
+                                 : py::str(path).attr("encode")());
+}
+
+void parse_options(const py::dict& options, const std::function<void(CLI::App&)>& add) {
+  CLI::App app;
+  app.set_help_flag();
+  add(app);
+  std::vector<std::string> words;
+  for (const auto& [key, value] : options) {
+    std::string name = py::str(key);
+    std::ranges::replace(name, '_', '-');
+    if (!app.get_option_no_throw("--" + name)) {
+      std::vector<std::string> known;
+      for (const CLI::Option* option : app.get_options()) {
+        std::string text = option->get_single_name();
+        std::ranges::replace(text, '-', '_');
+        known.push_back(text);
+      }
+      const std::vector<std::string_view> names(known.begin(), known.end());
+      throw Error(ExitCode::kUsage, fmt::format("option '{}' is unknown; allowed: {}{}",
+                                                printable(std::string(py::str(key))), join(names),
+                                                did_you_mean(std::string(py::str(key)), names)));
+    }
+    add_word("--" + name, value, words);
+  }
+  std::ranges::reverse(words);  // as CLI11 takes them
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw Error(ExitCode::kUsage, error.what());
+  }
+}
+
+Scene scene_of(const py::object& scene) {
+  if (!is_path(scene))
+    throw Error(ExitCode::kUsage, "a scene is a path, a text of XML, or a dict with both");
+  const std::string text = path_of(scene);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && text[first] == '<') return parse_scene(text, "scene", ".");
+  return read_scene(text);
+}
+
+std::vector<std::string> warnings_of(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const Material& material : scene.materials)
+    if (std::string line = warning(material.highlight);
+        !line.empty() && std::ranges::count(lines, line) == 0)
+      lines.push_back(std::move(line));
+  for (const std::string& line : remarks(scene)) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace lobelia::python

@@ -1,0 +1,75 @@
+// The built tree, installed in a directory with a blank and then moved, as a user may do.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "lobelia_paths.hpp"
+#include "tests/house/tree.hpp"
+
+namespace packages {
+
+namespace fs = std::filesystem;
+/// Of the tree that is tested.
+const fs::path kBuild = fs::path(LOBELIA_PROGRAM).parent_path().parent_path();
+
+using house::read;
+using house::Scratch;
+using house::write;
+
+struct Ran {
+  int exit_code;
+  std::string output;  ///< stdout and stderr
+};
+
+inline Ran run(const std::string& command) {
+  std::string output;
+  FILE* const pipe = ::popen(("exec 2>&1; " + command).c_str(), "r");
+  if (!pipe) return {-1, "no pipe"};
+  char part[4096];
+  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
+  const int status = ::pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(output)};
+}
+
+inline bool has_program(const std::string& name) {
+  return run("command -v " + name).exit_code == 0;
+}
+
+class InstalledTree {
+ public:
+  InstalledTree() {
+    // Packagers set it; here it would lead elsewhere.
+    ::unsetenv("DESTDIR");
+    const fs::path first = scratch_ / "at first";
+    installed_ =
+        run("cmake --install " + house::quoted(kBuild) + " --prefix " + house::quoted(first));
+    EXPECT_EQ(installed_.exit_code, 0) << installed_.output;
+    fs::rename(first, prefix());
+    fs::create_directory(work());
+  }
+  fs::path prefix() const { return scratch_ / "moved für später"; }
+  fs::path work() const { return scratch_ / "work"; }
+
+  /// In an empty directory, with nothing of our environment.
+  Ran shell(const std::string& script) const {
+    return run("cd " + house::quoted(work()) + " && exec env -i HOME=" + house::quoted(work()) +
+               " LC_ALL=C.UTF-8 PREFIX=" + house::quoted(prefix()) +
+               " PATH=" + house::quoted(prefix() / "bin") + ":/usr/bin:/bin /bin/sh -c " +
+               house::quoted(script));
+  }
+
+ private:
+  Scratch scratch_;
+  Ran installed_;
+};
+
+inline const InstalledTree& installed_tree() {
+  static const InstalledTree tree;
+  return tree;
+}
+
+}  // namespace packages

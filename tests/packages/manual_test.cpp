@@ -1,0 +1,150 @@
+// Man pages and completions, by man itself and by the shells.
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <regex>
+#include <set>
+
+#include "tests/packages/installed_tree.hpp"
+
+namespace packages {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string help_of(const std::string& command) {
+  return installed_tree().shell("lobelia " + command + " --help").output;
+}
+std::set<std::string> matches(const std::string& text, const std::regex& word) {
+  std::set<std::string> words;
+  for (std::sregex_iterator it(text.begin(), text.end(), word), end; it != end; ++it)
+    words.insert((*it)[1]);
+  return words;
+}
+std::set<std::string> subcommands(const std::string& command) {
+  const std::string help = help_of(command);
+  const std::size_t at = help.find("\nSubcommands:\n");
+  if (at == help.npos) return {};
+  static const std::regex word("\n  ([a-z][a-z-]+) ");
+  return matches(help.substr(at, help.find("\n\n", at + 1) - at), word);
+}
+std::set<std::string> options(const std::string& command) {
+  static const std::regex word("\n  (?:-[a-zA-Z],)?(--[a-z][a-z0-9-]*)");
+  return matches(help_of(command), word);
+}
+
+/// Of every command, "" and "farm status" too.
+std::vector<std::string> all_commands() {
+  std::vector<std::string> commands{""};
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    for (const std::string& name : subcommands(commands[i]))
+      commands.push_back(commands[i].empty() ? name : commands[i] + " " + name);
+  EXPECT_GT(commands.size(), 20u);
+  return commands;
+}
+
+TEST(ManPages, are_there_for_every_command_and_option_and_without_a_warning) {
+  if (!has_program("man")) GTEST_SKIP() << "man-db is not installed";
+  const fs::path pages = installed_tree().prefix() / "share/man/man1";
+  for (const std::string& command : all_commands()) {
+    SCOPED_TRACE(command);
+    const std::string name =
+        "lobelia" +
+        (command.empty() ? "" : "-" + std::regex_replace(command, std::regex(" "), "-"));
+    const std::string page = house::quoted(pages / (name + ".1.gz"));
+    const Ran shown = run("MANWIDTH=200 LC_ALL=C.UTF-8 man -l " + page + " | col -bx");
+    for (const std::string& option : options(command)) EXPECT_THAT(shown.output, HasSubstr(option));
+    const Ran warnings =
+        run("LC_ALL=C.UTF-8 MANROFFSEQ= MANWIDTH=80 man --warnings -E UTF-8 -l -Tutf8 -Z " + page +
+            " 2>&1 > /dev/null");
+    EXPECT_EQ(warnings.exit_code, 0);
+    EXPECT_THAT(warnings.output, IsEmpty());
+    const Ran whatis = run("lexgrog " + page);
+    EXPECT_EQ(whatis.exit_code, 0);
+    EXPECT_THAT(whatis.output, HasSubstr(": \"" + name + " - "));
+  }
+}
+
+/// Completes the last word of `line`; one line for each candidate.
+using Complete = std::function<std::set<std::string>(const std::string& line)>;
+
+void expect_commands_and_options(const Complete& complete) {
+  for (const std::string& command : all_commands()) {
+    const std::string line = "lobelia " + command + (command.empty() ? "" : " ");
+    SCOPED_TRACE(line);
+    const auto completed = complete(line), of_dash = complete(line + "--");
+    for (const std::string& name : subcommands(command))
+      EXPECT_TRUE(completed.contains(name)) << name;
+    for (const std::string& name : options(command)) EXPECT_TRUE(of_dash.contains(name)) << name;
+  }
+  EXPECT_EQ(complete("lobelia rend"), std::set<std::string>{"render"});
+  EXPECT_EQ(complete("lobelia render --effects "), (std::set<std::string>{"all", "as-called-for"}));
+  // Options of the command before the last one.
+  EXPECT_FALSE(complete("lobelia farm status --").contains("--effects"));
+}
+
+/// The first words of the lines of a script's output.
+std::set<std::string> candidates(const Ran& ran) {
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  std::set<std::string> words;
+  for (const std::string& line : house::lines(ran.output))
+    if (!line.empty()) words.insert(line.substr(0, line.find('\t')));
+  return words;
+}
+
+TEST(Completion, by_bash_knows_every_command_and_option) {
+  const std::string script =
+      "source \"$PREFIX\"/share/bash-completion/completions/lobelia; compopt() { :; }; "
+      "read -ra COMP_WORDS <<< \"$1\"; [[ $1 != *\" \" ]] || COMP_WORDS+=(\"\"); "
+      "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _lobelia; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
+  expect_commands_and_options([&](const std::string& line) {
+    return candidates(installed_tree().shell("bash --norc -euc " + house::quoted(script) +
+                                             " bash " + house::quoted(line)));
+  });
+}
+
+TEST(Completion, by_fish_knows_every_command_and_option) {
+  if (!has_program("fish")) GTEST_SKIP() << "fish is not installed";
+  expect_commands_and_options([&](const std::string& line) {
+    return candidates(installed_tree().shell(
+        "fish --no-config -c 'source \"$PREFIX\"/share/fish/vendor_completions.d/lobelia.fish; "
+        "complete -C \"$argv[1]\"' -- " +
+        house::quoted(line)));
+  });
+}
+
+TEST(Completion, by_zsh_completes_on_a_terminal) {
+  if (!has_program("zsh")) GTEST_SKIP() << "zsh is not installed";
+  // A shell of its own on a terminal, with a key that prints the line after the completion.
+  const std::string script = R"(
+    zmodload zsh/zpty
+    zpty z zsh -f -i
+    zpty -w z 'unsetopt prompt_sp; PS1=; fpath=("$PREFIX"/share/zsh/site-functions $fpath)'
+    zpty -w z 'autoload -Uz compinit; compinit -u -D'
+    zpty -w z 'say() { print -r -- "[LINE:$BUFFER]"; BUFFER=; zle accept-line }; zle -N say; bindkey "^X" say'
+    zpty -w z 'print re''ady'
+    zpty -r z text '*ready*'
+    for typed in "lobelia rend" "lobelia farm stat" "lobelia render --effects as" "lobelia render --effe" "lobelia compare --junit wor"; do
+      zpty -w -n z "$typed"$'\t\x18'
+      zpty -r z text '*LINE:*\]*'
+      print -r -- "${${text##*\[LINE:}%%\]*}"
+    done)";
+  write(installed_tree().work() / "word.xml", "");
+  const Ran ran = installed_tree().shell("zsh -fc " + house::quoted(script));
+  EXPECT_EQ(
+      house::lines(ran.output),
+      (std::vector<std::string>{
+          "lobelia render ", "lobelia farm status ", "lobelia render --effects as-called-for ",
+          "lobelia render --effects ", "lobelia compare --junit word.xml ", ""}));
+}
+
+TEST(Completion, scripts_have_no_error_that_shellcheck_knows) {
+  if (!has_program("shellcheck")) GTEST_SKIP() << "shellcheck is not installed";
+  const Ran ran = installed_tree().shell(
+      "shellcheck --shell=bash \"$PREFIX\"/share/bash-completion/completions/lobelia");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+}
+
+}  // namespace
+}  // namespace packages

@@ -1,0 +1,210 @@
+"""Lobes and models against formulas that are written here by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+import lobelia
+
+EXPONENTS = [1.0, 16.0, 64.0, 1000.0]
+
+
+def cs(order, s, n):
+    return np.maximum(0, 1 - n * s / order) ** order
+
+
+def cosine(s, n):
+    return np.maximum(0, 1 - s) ** n
+
+
+def test_cs16_is_its_formula():
+    s, n = np.linspace(0, 2, 401), 16.0
+    assert np.allclose(lobelia.lobe("cs16").value(s, n), cs(16, s, n), rtol=1e-12, atol=1e-300)
+
+
+@pytest.mark.parametrize("n", EXPONENTS)
+def test_cosine_is_its_formula(n):
+    s = np.linspace(0, 2, 401)
+    assert np.allclose(lobelia.lobe("cosine").value(s, n), cosine(s, n), rtol=1e-11, atol=1e-300)
+
+
+@pytest.mark.parametrize("name", lobelia.lobes())
+@pytest.mark.parametrize("n", EXPONENTS)
+def test_every_lobe_is_1_at_its_peak_and_falls(name, n):
+    value = lobelia.lobe(name).value(np.linspace(0, 1, 1001), n)
+    assert value[0] == pytest.approx(1)
+    assert np.all(np.diff(value) <= 1e-12)
+
+
+@pytest.mark.parametrize("name", lobelia.lobes())
+def test_float32_has_the_values_of_float64(name):
+    s = np.linspace(0, 1, 5000)
+    lobe = lobelia.lobe(name)
+    for n in EXPONENTS:
+        # s is rounded, which moves a lobe by up to n of its peak per unit; and so are the 64 factors of cs64.
+        error = np.abs(lobe.value(s.astype(np.float32), np.float32(n)) - lobe.value(s, n))
+        assert np.max(error) < 2 ** -23 * (64 + n)
+
+
+def test_float32_gives_float32_and_all_else_float64():
+    lobe = lobelia.lobe("cs16")
+    s32 = np.zeros(3, np.float32)
+    assert lobe.value(s32, np.float32(16)).dtype == np.float32
+    assert lobe.value(s32, np.ones(3, np.float32)).dtype == np.float32
+    assert lobe.value(s32, np.ones(3)).dtype == np.float64
+    assert lobe.value(np.zeros(3), 16).dtype == np.float64
+    assert lobe.value(0, 16) == 1
+    assert np.ndim(lobe.value(0, 16)) == 0
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize(
+    "shapes",
+    [((), ()), ((5,), ()), ((), (5,)), ((5, 1), (7,)), ((7,), (5, 1)), ((3, 1, 4), (2, 1)),
+     ((0,), ()), ((0, 3), (3,)), ((1100,), (1,)), ((2, 3), (2, 3))],
+)  # fmt: skip
+def test_arguments_are_broadcast_as_numpy_does(shapes, dtype):
+    random = np.random.default_rng(1)
+    s = random.uniform(0, 1, shapes[0]).astype(dtype)
+    n = random.uniform(1, 8, shapes[1]).astype(dtype)
+    value = lobelia.lobe("cs16").value(s, n)
+    assert np.shape(value) == np.broadcast_shapes(*shapes)
+    assert np.allclose(value, cs(16, s.astype(float), n.astype(float)), rtol=1e-5)
+
+
+def test_strides_do_not_matter():
+    s = np.linspace(0, 1, 600).reshape(20, 30)
+    for view in (s[::2, ::-3], s.T, s[:, :1]):
+        assert np.array_equal(lobelia.lobe("cosine").value(view, 9.0),
+                              lobelia.lobe("cosine").value(np.array(view), 9.0))  # fmt: skip
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_nan_stays_nan(dtype):
+    for name in lobelia.lobes():
+        value = lobelia.lobe(name).value(np.array([0.1, np.nan, 0], dtype), dtype(8))
+        assert list(np.isnan(value)) == [False, True, False]
+
+
+@pytest.mark.parametrize("s", [-0.1, 2.5, np.inf, -np.inf])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_s_out_of_range_is_named(s, dtype):
+    with pytest.raises(lobelia.UsageError, match=r"s = .* is out of range; allowed: 0 to 2"):
+        lobelia.lobe("cs16").value(np.array([0.5, s], dtype), dtype(8))
+
+
+@pytest.mark.parametrize("n", [0, -1, 1e9, np.nan, np.inf])
+def test_an_exponent_out_of_range_is_named(n):
+    for call in (
+        lambda: lobelia.lobe("cs16").value(0.5, n),
+        lambda: lobelia.lobe("cs16").value(np.float32(0.5), np.float32(n)),
+        lambda: lobelia.lobe("cs16").sample(0.5, n),
+        lambda: lobelia.coefficient("phong_rdf", "cosine", n),
+        lambda: lobelia.albedo("phong_rdf", "cosine", n),
+    ):
+        with pytest.raises(lobelia.UsageError, match="exponent .* is out of range; allowed: 0.001"):
+            call()
+
+
+def test_shapes_that_do_not_fit_are_named():
+    with pytest.raises(lobelia.UsageError, match=r"\(3\), \(4\) cannot be broadcast"):
+        lobelia.lobe("cs16").value(np.zeros(3), np.ones(4))
+
+
+def test_what_is_no_number_is_refused():
+    for bad in ("text", [object()], [1j]):
+        with pytest.raises(lobelia.UsageError, match="s and n are numbers"):
+            lobelia.lobe("cs16").value(bad, 8)
+
+
+def test_unknown_names_get_a_suggestion():
+    with pytest.raises(lobelia.UsageError, match="did you mean 'cosine'"):
+        lobelia.lobe("cosin")
+    with pytest.raises(lobelia.UsageError, match="did you mean 'phong_rdf'"):
+        lobelia.coefficient("phong_rd", "cosine", 8)
+    with pytest.raises(lobelia.UsageError, match="allowed: exact, paper"):
+        lobelia.coefficient("phong_rdf", "cosine", 8, "norm")
+
+
+def test_a_formula_is_a_lobe():
+    n, s = 8.0, np.linspace(0, 0.99, 50)
+    lobe = lobelia.lobe("expression", "1 / (1 + n * s)")
+    assert np.allclose(lobe.value(s, n), 1 / (1 + n * s))
+    assert np.allclose(lobe.value(s.astype(np.float32), np.float32(n)), 1 / (1 + n * s), rtol=1e-5)
+    with pytest.raises(lobelia.UsageError, match="--formula"):
+        lobelia.lobe("expression", "1 / (")
+    with pytest.raises(lobelia.UsageError, match="needs a --formula"):
+        lobelia.lobe("expression")
+
+
+def test_coefficients_are_their_closed_forms():
+    n = np.array(EXPONENTS)
+    assert np.allclose(lobelia.coefficient("phong_rdf", "cosine", n), (n + 1) / (2 * math.pi))
+    assert np.allclose(lobelia.coefficient("modified_phong", "cosine", n), (n + 2) / (2 * math.pi))
+
+
+def test_the_paper_has_no_coefficient_for_other_lobes():
+    assert lobelia.coefficient("phong_rdf", "cs16", 64, "paper") > 0
+    with pytest.raises(lobelia.InputError, match="the paper gives no coefficient"):
+        lobelia.coefficient("phong_rdf", "schlick", 64, "paper")
+
+
+@pytest.mark.parametrize("name", lobelia.lobes())
+def test_density_integrates_to_1_and_samples_follow_it(name):
+    lobe, n = lobelia.lobe(name), 20.0
+    edges = np.linspace(0, 1, 200001)
+    middle = (edges[1:] + edges[:-1]) / 2
+    density = lobe.density(middle, n)
+    assert np.mean(density) == pytest.approx(1, abs=2e-3)
+    u = (np.arange(100000) + 0.5) / 100000
+    s = lobe.sample(u, n)
+    assert np.all((s >= 0) & (s <= 1))
+    counts = np.histogram(s, bins=20, range=(0, 1))[0] / len(u)
+    expected = density.reshape(20, -1).mean(axis=1) / 20
+    assert np.allclose(counts, expected, atol=5e-3)
+
+
+def test_u_out_of_range_is_named():
+    for u in (1.0, -0.1, np.nan):
+        with pytest.raises(lobelia.UsageError, match="u = .* is out of range"):
+            lobelia.lobe("cosine").sample(u, 8)
+
+
+def test_an_rdf_reflects_all_light_at_normal_incidence():
+    for name in ("cosine", "cs16"):
+        assert lobelia.albedo("phong_rdf", name, 64) == pytest.approx(1, abs=1e-8)
+    incidence = np.radians([0, 30, 60])
+    both = [lobelia.albedo("modified_phong", "cosine", 16, incidence, of_light=of)
+            for of in (False, True)]  # fmt: skip
+    assert both[0].shape == (3,)
+    with pytest.raises(lobelia.UsageError, match="incidence"):
+        lobelia.albedo("phong_rdf", "cosine", 64, math.pi / 2)
+
+
+@pytest.mark.parametrize("model", lobelia.models())
+def test_radiance_is_coefficient_lobe_cosine_and_shadowing(model):
+    info = next(one for one in lobelia.catalogue().models if one.name == model)
+    s, n, n_dot_l, n_dot_v = np.linspace(0, 1, 7), 16.0, np.array([[-0.5], [0.0], [0.25], [1.0]]), 0.6
+    lit = np.where(n_dot_l > 0, n_dot_l, 1.0)
+    factor = lit if info.applies_cosine else np.ones_like(lit)
+    if info.has_shadowing:
+        def twice_lambda(c):
+            return np.sqrt(1 + 2 / (n + 2) * (1 / c**2 - 1)) - 1
+        factor = factor / (lit * n_dot_v * (1 + twice_lambda(lit) / 2 + twice_lambda(n_dot_v) / 2))
+    expected = lobelia.coefficient(model, "cosine", n) * factor * cosine(s, n) * (n_dot_l > 0)
+    given = lobelia.radiance(model, "cosine", n, n_dot_l, s, n_dot_v)
+    assert np.allclose(given, expected, rtol=1e-10)
+
+
+def test_large_arrays_need_no_python_loop():
+    s = np.zeros((1000, 1000), np.float32)
+    assert lobelia.lobe("cs16").value(s, np.float32(16)).sum() == 1e6
+
+
+def test_the_catalogue_names_every_model_and_lobe():
+    catalogue = lobelia.catalogue(16)
+    assert [one.name for one in catalogue.models] == lobelia.models()
+    assert [one.name for one in catalogue.lobes] == lobelia.lobes()
+    assert {one.model for one in catalogue.highlights} == set(lobelia.models())
+    assert {one.lobe for one in catalogue.highlights} == set(lobelia.lobes())
