@@ -112,7 +112,7 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
            "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
            "<string name=\"lobe\" value=\"cs15\"/></bsdf></shape>"),
        "s.xml:3:106: unknown lobe 'cs15'; allowed: cosine, cs2, cs4, cs8, cs16, cs32, cs64, "
-       "spherical_gaussian, gauss, schlick, pk3.1, pk3.2, pk3.3, pk3.4; csK for any even K from 2 to 1024; expression, with a "
+       "spherical_gaussian, gauss, schlick, pk3.1, pk3.2, pk3.3, pk3.4, ggx; csK for any even K from 2 to 1024; expression, with a "
        "formula; did you mean 'cs16'?"},
       {scene(
            "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
