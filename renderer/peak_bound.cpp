@@ -19,14 +19,18 @@ double nearest_surface(const Lamp& lamp, const Scene& scene) {
   return std::isfinite(nearest) ? nearest : 1.0;
 }
 
-double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
+double peak_bound(const Scene& scene, const std::vector<Light>& lights,
+                  std::optional<double> shadowing) {
   double reflected = 0, mirrored = 0;  // at most, of unit irradiance and of unit radiance
   const auto add = [&](int index) {
     const Material& m = scene.materials.at(std::size_t(index));
     const bool schlick = m.fresnel != Fresnel::kNone;
     const double specular = schlick ? 1 : max_component(m.specular_reflectance);
-    const double highlight = radiance_coefficient(m.highlight) *
-                             largest_shadowing(m.highlight.model, m.highlight.exponent);
+    const Highlight& h = m.highlight;
+    const double largest = largest_shadowing(h.model, h.exponent);
+    const double highlight =
+        radiance_coefficient(h) *
+        (info(h.model).has_shadowing ? std::min(largest, shadowing.value_or(largest)) : 1);
     reflected = std::max(
         reflected, highlight * specular + max_component(m.diffuse_reflectance) / std::numbers::pi);
     mirrored = std::max(mirrored, schlick ? mirror_at_grazing(m.mirror_reflectance)

@@ -8,7 +8,9 @@ namespace lobelia {
 /// Distance from a near lamp to the nearest surface that it can light; 1 if there is none.
 double nearest_surface(const Lamp& lamp, const Scene& scene);
 
-/// Upper bound of the radiance that the lights can bring to the picture, directly or by mirrors.
-double peak_bound(const Scene& scene, const std::vector<Light>& lights);
+/// Upper bound of the radiance that the lights can bring to the picture, directly or by mirrors. `shadowing` is the largest
+/// factor of a model's shadowing in it, where that is known; else it is the largest there is, at grazing angles.
+double peak_bound(const Scene& scene, const std::vector<Light>& lights,
+                  std::optional<double> shadowing = std::nullopt);
 
 }  // namespace lobelia

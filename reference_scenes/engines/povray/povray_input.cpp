@@ -12,6 +12,7 @@
 #include "reference_scenes/preparation.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
+#include "renderer/pixel_ray.hpp"
 #include "shaders/povray.hpp"
 
 namespace lobelia {
@@ -133,10 +134,33 @@ std::vector<const Material*> materials_in_use(const Scene& scene) {
   return used;
 }
 
+/// The largest factor of a model's shadowing at the pixels' centres. Half floats have no room for the largest there is: the
+/// tail of a sharp highlight would lose digits.
+std::optional<double> shadowing_in(const Scene& scene, const std::vector<Light>& lights) {
+  const bool any = std::ranges::any_of(materials_in_use(scene), [](const Material* m) {
+    return info(m->highlight.model).has_shadowing;
+  });
+  if (!any || !beyond_single_rays(scene).empty()) return std::nullopt;
+  double largest = 1;
+  for (int k = 0; k < int(scene.spheres.size()); ++k) {
+    const Sphere& sphere = scene.spheres[std::size_t(k)];
+    const Highlight& h = scene.materials.at(std::size_t(sphere.material)).highlight;
+    if (!info(h.model).has_shadowing) continue;
+    for_each_pixel_of(scene, k, [&](std::size_t, const Hit& hit, Vec3 to_eye) {
+      for (const Light& light : lights)
+        if (const double n_dot_l = dot(hit.normal, illuminate(light, hit.point).to_light);
+            n_dot_l > 0)
+          largest = std::max(largest, geometry_factor(h.model, h.exponent, n_dot_l,
+                                                      std::max(0.0, dot(hit.normal, to_eye))));
+    });
+  }
+  return largest;
+}
+
 PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const PovrayInput& input,
                    bool expressed) {
   PovrayPass pass;
-  const double bound = peak_bound(scene, lights);
+  const double bound = peak_bound(scene, lights, shadowing_in(scene, lights));
   if (bound > 0)
     pass.gain = std::exp2(std::clamp(std::floor(std::log2(kHighestHalf / bound)),
                                      -double(kMaxGainStops), double(kMaxGainStops)));
