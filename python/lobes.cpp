@@ -319,8 +319,7 @@ py::array radiance(Highlight highlight, const Doubles::Array& n, const Doubles::
       cli::require_lobe(highlight);
       for_others([&](const auto& row) {
         for (py::ssize_t i = 0; i < row.count; ++i)
-          row.result(i) =
-              checked_radiance(highlight, row.at(1, i), row.at(2, i), row.at(3, i));
+          row.result(i) = checked_radiance(highlight, row.at(1, i), row.at(2, i), row.at(3, i));
       });
     });
   }
