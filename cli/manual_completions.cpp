@@ -19,7 +19,7 @@ std::string case_of_paths(const std::vector<CommandRow>& all, const char* betwee
     if (command.path.empty()) continue;
     const std::size_t blank = command.path.rfind(' ');
     const std::string step = blank == command.path.npos ? " " + command.path : command.path;
-    text += (text.empty() ? "" : between) + shell_word(step);
+    text += (text.empty() ? "" : between) + shell_quote(step);
   }
   return text;
 }
@@ -46,7 +46,7 @@ std::string cases_of_values(const std::vector<CommandRow>& all, What what) {
       if (option.names.empty() || option.kind == ValueKind::kNone) continue;
       std::string pattern;
       for (const std::string& name : option.names)
-        pattern += (pattern.empty() ? "" : "|") + shell_word(command.path + " " + name);
+        pattern += (pattern.empty() ? "" : "|") + shell_quote(command.path + " " + name);
       text += fmt::format("    {}) {} ;;\n", pattern, what(option));
     }
   return text;
@@ -71,11 +71,11 @@ std::string menu_text(const std::string& help) {
 std::string bash_completion(const std::vector<CommandRow>& all) {
   std::string commands;
   for (const CommandRow& command : all)
-    commands += fmt::format("    {}) subcommands={} options={} ;;\n", shell_word(command.path),
-                            shell_word(joined(command.subcommands)),
-                            shell_word(joined(names_of_options(command))));
+    commands += fmt::format("    {}) subcommands={} options={} ;;\n", shell_quote(command.path),
+                            shell_quote(joined(command.subcommands)),
+                            shell_quote(joined(names_of_options(command))));
   const std::string values = cases_of_values(all, [](const OptionRow& option) {
-    if (option.kind == ValueKind::kWords) return "words=" + shell_word(joined(option.words));
+    if (option.kind == ValueKind::kWords) return "words=" + shell_quote(joined(option.words));
     return std::string(option.kind == ValueKind::kFile        ? "kind='file'"
                        : option.kind == ValueKind::kDirectory ? "kind='directory'"
                                                               : "kind='other'");
@@ -125,7 +125,7 @@ std::string zsh_completion(const std::vector<CommandRow>& all) {
   const auto described = [](const std::string& name, const std::string& help) {
     std::string text;
     for (const char c : name) text += c == ':' ? std::string("\\:") : std::string(1, c);
-    return " " + shell_word(text + ":" + menu_text(help));
+    return " " + shell_quote(text + ":" + menu_text(help));
   };
   std::string commands;
   for (const CommandRow& command : all) {
@@ -135,12 +135,12 @@ std::string zsh_completion(const std::vector<CommandRow>& all) {
     for (const OptionRow& option : command.options)
       for (const std::string& name : option.names) options += described(name, option.help);
     commands += fmt::format("    {}) subcommands=({} ) options=({} ) ;;\n",
-                            shell_word(command.path), subcommands, options);
+                            shell_quote(command.path), subcommands, options);
   }
   const std::string values = cases_of_values(all, [](const OptionRow& option) {
     if (option.kind == ValueKind::kWords) {
       std::string words;
-      for (const std::string& word : option.words) words += " " + shell_word(word);
+      for (const std::string& word : option.words) words += " " + shell_quote(word);
       return "compadd --" + words + "; return";
     }
     return std::string(option.kind == ValueKind::kFile        ? "_files; return"

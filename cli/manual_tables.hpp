@@ -42,7 +42,5 @@ std::string fish_completion(const std::vector<CommandRow>& all);
 std::string man_name(const CommandRow& command);
 /// The text up to the first line break.
 std::string first_line(const std::string& text);
-/// 'text' for a shell.
-std::string shell_word(const std::string& text);
 
 }  // namespace lobelia::cli

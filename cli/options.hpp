@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/choice.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/scene.hpp"
@@ -59,19 +60,6 @@ class OptionGroup {
 
 /// --any-format and --base-only, for commands that read pictures from other programs.
 void add_reading_options(CLI::App& command);
-
-/// Looks up `value` with `find`. Throws Error(kUsage) that lists the `allowed` values and suggests the nearest of
-/// `names`.
-template <class Find>
-auto chosen(const std::string& value, std::string_view option,
-            std::span<const std::string_view> names, const std::string& allowed, Find find) {
-  const auto found = find(value);
-  if (!found)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(value), allowed,
-                            did_you_mean(value, names)));
-  return *found;
-}
 
 /// The position of `value` in `names`. Throws as chosen().
 std::size_t chosen_place(const std::string& value, std::string_view option,

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
-#include <span>
 
 #include "compare/compare.hpp"
 #include "compare/profile/blob.hpp"
+#include "core/choice.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/no_resources.hpp"
@@ -42,7 +42,7 @@ ErrorCode code_of(ExitCode code) {
   }
 }
 
-/// What a caller's own function threw, which goes through as it is.
+/// Carries an exception of the caller's own function through guarded().
 struct OfCaller {
   std::exception_ptr what;
 };
@@ -76,25 +76,15 @@ void require(std::string_view what, Number value, double min, double max) {
     refuse(fmt::format("{} {} is out of range; allowed: {:g} to {:g}", what, value, min, max));
 }
 
-/// Throws Error(usage) that lists `names` and suggests the nearest.
-template <class Find>
-auto known(const std::string& name, std::string_view what, std::span<const std::string_view> names,
-           const std::string& allowed, Find find) {
-  const auto found = find(name);
-  if (!found)
-    refuse(fmt::format("{} '{}' is unknown; allowed: {}{}", what, printable(name), allowed,
-                       did_you_mean(name, names)));
-  return *found;
-}
 ModelId model_of(const std::string& name) {
-  return known(name, "model", model_names(), join(model_names()), find_model);
+  return chosen(name, "model", model_names(), join(model_names()), find_model);
 }
 LobeId lobe_of(const std::string& name) {
-  return known(name, "lobe", lobe_names(), allowed_lobes(), find_lobe);
+  return chosen(name, "lobe", lobe_names(), allowed_lobes(), find_lobe);
 }
 Normalisation normalisation_of(const std::string& name) {
-  return known(name, "normalisation", normalisation_names(), join(normalisation_names()),
-               find_normalisation);
+  return chosen(name, "normalisation", normalisation_names(), join(normalisation_names()),
+                find_normalisation);
 }
 
 Image image_of(const Picture& picture) {

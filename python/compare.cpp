@@ -151,7 +151,7 @@ std::shared_ptr<Compared> compare_two(const py::object& a, const py::object& b,
 
 const DifferenceMap& map_of(const std::string& id) {
   const std::vector<std::string_view> names = difference_map_names();
-  return *cli::chosen(id, "map", names, join(names), [](const std::string& name) {
+  return *chosen(id, "map", names, join(names), [](const std::string& name) {
     const DifferenceMap* const found = find_difference_map(name);
     return found ? std::optional(found) : std::nullopt;
   });
