@@ -267,11 +267,11 @@ py::array lobe64(const LobeId& lobe, const Doubles::Array& first, const Doubles:
   return all.array();
 }
 
-/// A function of the exponent and one more argument.
+/// function(highlight, argument), where argument(k) is the k-th of `arguments`; the first one is the exponent.
 template <class Function>
-py::array of_highlight(Highlight highlight, const Doubles::Array& n, const Doubles::Array& more,
+py::array of_highlight(Highlight highlight, std::vector<Doubles::Array> arguments,
                        Function function) {
-  const Doubles all({n, more});
+  const Doubles all(std::move(arguments));
   {
     const py::gil_scoped_release released;
     all.for_each_of(0, [&](double exponent, const auto& for_others) {
@@ -279,7 +279,8 @@ py::array of_highlight(Highlight highlight, const Doubles::Array& n, const Doubl
       cli::require_lobe(highlight);
       for_others([&](const auto& row) {
         for (py::ssize_t i = 0; i < row.count; ++i)
-          row.result(i) = function(std::as_const(highlight), row.at(1, i));
+          row.result(i) =
+              function(std::as_const(highlight), [&](std::size_t k) { return row.at(k, i); });
       });
     });
   }
@@ -306,24 +307,6 @@ double checked_radiance(const Highlight& highlight, double n_dot_l, double n_dot
   check_cosine("n_dot_v", n_dot_v);
   if (std::isnan(n_dot_l) || std::isnan(n_dot_v) || std::isnan(s)) return kNaN;
   return n_dot_v > 0 ? highlight_radiance(highlight, n_dot_l, n_dot_v, s) : 0;
-}
-
-/// Radiance per unit irradiance: coefficient, lobe, N.L and shadowing.
-py::array radiance(Highlight highlight, const Doubles::Array& n, const Doubles::Array& n_dot_l,
-                   const Doubles::Array& n_dot_v, const Doubles::Array& s) {
-  const Doubles all({n, n_dot_l, n_dot_v, s});
-  {
-    const py::gil_scoped_release released;
-    all.for_each_of(0, [&](double exponent, const auto& for_others) {
-      highlight.exponent = checked_exponent(exponent);
-      cli::require_lobe(highlight);
-      for_others([&](const auto& row) {
-        for (py::ssize_t i = 0; i < row.count; ++i)
-          row.result(i) = checked_radiance(highlight, row.at(1, i), row.at(2, i), row.at(3, i));
-      });
-    });
-  }
-  return all.array();
 }
 
 }  // namespace
@@ -361,21 +344,28 @@ void add_lobes(py::module_& module) {
           }))
       .def("coefficient",
            [](const Highlight& highlight, const Doubles::Array& n) {
-             return of_highlight(
-                 highlight, n, Doubles::Array(py::float_(0.0)),
-                 [](const Highlight& one, double) { return radiance_coefficient(one); });
+             return of_highlight(highlight, {n}, [](const Highlight& one, auto) {
+               return radiance_coefficient(one);
+             });
            })
       .def("albedo",
            [](const Highlight& highlight, const Doubles::Array& n, const Doubles::Array& incidence,
               bool of_light) {
-             return of_highlight(highlight, n, incidence,
-                                 [of_light](const Highlight& one, double radians) {
-                                   checked_incidence(radians);
+             return of_highlight(highlight, {n, incidence},
+                                 [of_light](const Highlight& one, auto argument) {
+                                   const double radians = checked_incidence(argument(1));
                                    return of_light ? directional_albedo_of_light(one, radians)
                                                    : directional_albedo(one, radians);
                                  });
            })
-      .def("radiance", &radiance);
+      .def("radiance",
+           [](const Highlight& highlight, const Doubles::Array& n, const Doubles::Array& n_dot_l,
+              const Doubles::Array& n_dot_v, const Doubles::Array& s) {
+             return of_highlight(
+                 highlight, {n, n_dot_l, n_dot_v, s}, [](const Highlight& one, auto argument) {
+                   return checked_radiance(one, argument(1), argument(2), argument(3));
+                 });
+           });
 }
 
 }  // namespace lobelia::python
