@@ -63,10 +63,11 @@ struct Shader {
   static void float64(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                       const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
     const L lobe(LobeParameters{highlight});
+    const double alpha2 = alpha_squared(highlight.exponent);
     for (std::size_t i = 0; i < count; i += Lanes::count()) {
       const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
       const Lanes s = one_minus_cos<M::kInfo.angle, Lanes>(n, v, l);
-      store_lit(highlight, n, v, l, lobe.value(s), specular + i);
+      store_lit(alpha2, n, v, l, lobe.value(s), specular + i);
     }
   }
 
@@ -76,6 +77,7 @@ struct Shader {
   static void narrow_lobe(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                           const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
     const L lobe(LobeParameters{highlight});
+    const double alpha2 = alpha_squared(highlight.exponent);
     for (std::size_t i = 0; i < count; i += Lanes32::count()) {
       const Pair n(normal, i), v(to_eye, i), l(to_light, i);
       Lanes32 s;
@@ -86,17 +88,16 @@ struct Shader {
         s = one_minus_cos<M::kInfo.angle, Lanes32>(n.rounded(), v.rounded(), l.rounded());
       Lanes low, high;
       widen(lobe.value(s), low, high);
-      store_lit(highlight, n.low, v.low, l.low, low, specular + i);
-      store_lit(highlight, n.high, v.high, l.high, high, specular + i + Lanes::count());
+      store_lit(alpha2, n.low, v.low, l.low, low, specular + i);
+      store_lit(alpha2, n.high, v.high, l.high, high, specular + i + Lanes::count());
     }
   }
 
  private:
-  static HWY_INLINE void store_lit(const Highlight& highlight, Lanes3 n, Lanes3 v, Lanes3 l,
-                                   Lanes value, double* specular) {
+  static HWY_INLINE void store_lit(double alpha2, Lanes3 n, Lanes3 v, Lanes3 l, Lanes value,
+                                   double* specular) {
     const Lanes n_dot_l = dot(n, l);
-    if constexpr (M::kInfo.has_shadowing)
-      value = value * smith_factor(alpha_squared(highlight.exponent), n_dot_l, dot(n, v));
+    if constexpr (M::kInfo.has_shadowing) value = value * smith_factor(alpha2, n_dot_l, dot(n, v));
     // Also 0 where there is no half vector (L = -V): N.L and N.V are never both positive there.
     if constexpr (M::kInfo.applies_cosine) value = value * n_dot_l;
     where_less(Lanes(0.0), n_dot_l, value).store(specular);

@@ -58,10 +58,8 @@ Number unit_shape(const Highlight& highlight, const truth::Vector<Number>& n,
                             : dot(n, normalize(l + v));
   const Number value =
       cosine > Number(0) ? lobe_definition(highlight.lobe, cosine, highlight.exponent) : Number(0);
-  const Number n_dot_v = dot(n, v);
-  if (model.has_shadowing && n_dot_v <= Number(0)) return Number(0);
-  return value *
-         truth::geometry(truth::model_row(highlight.model), highlight.exponent, n_dot_l, n_dot_v);
+  return value * truth::geometry<Number>(truth::model_row(highlight.model), highlight.exponent,
+                                         n_dot_l, dot(n, v));
 }
 
 constexpr float kEpsilon = 1e-4f;

@@ -37,12 +37,14 @@ Real lobe_cosine(LobeAngle angle, const Vector<Real>& normal, const Vector<Real>
   return dot(normal, normalize(to_light + to_eye));
 }
 
-/// What the model multiplies the lobe with, for cosines above 0. Shadowing as Heitz prints it, by Lambda.
+/// The factor of the lobe, for a light above the horizon. Shadowing is as Heitz prints it, by Lambda; 0 for an eye below the
+/// horizon.
 template <class Real>
 Real geometry(const ModelRow& model, double exponent, const Real& n_dot_l, const Real& n_dot_v) {
   using std::sqrt;
   const Real cosine = model.radiance_has_cosine ? n_dot_l : Real(1);
   if (!model.has_shadowing) return cosine;
+  if (n_dot_v <= Real(0)) return Real(0);
   const auto lambda = [&](const Real& c) -> Real {
     return (sqrt(1 + Real(2) / Real(exponent + 2) * (1 / (c * c) - 1)) - 1) / 2;
   };

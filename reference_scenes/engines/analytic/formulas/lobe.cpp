@@ -31,9 +31,7 @@ double shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light
   const ModelRow& model = model_row(highlight.model);
   const Big lobe =
       lobe_of_cosine(highlight.lobe, lobe_cosine(model.angle, n, v, l), highlight.exponent);
-  const Big n_dot_v = dot(n, v);
-  if (model.has_shadowing && n_dot_v <= 0) return 0;
-  return double(Big(lobe * geometry(model, highlight.exponent, n_dot_l, n_dot_v)));
+  return double(Big(lobe * geometry<Big>(model, highlight.exponent, n_dot_l, dot(n, v))));
 }
 
 }  // namespace lobelia::truth
