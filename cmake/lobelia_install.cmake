@@ -6,7 +6,7 @@ set(LOBELIA_DOCS share/doc/lobelia)
 # Grids name their scenes as ../scenes/NAME.xml.
 install(DIRECTORY reference_scenes/scenes reference_scenes/grids DESTINATION ${LOBELIA_DATA})
 install(DIRECTORY docs/reference/ DESTINATION ${LOBELIA_DATA}/schemas FILES_MATCHING PATTERN *.schema.json)
-install(FILES README.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
+install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
 
 # Builds all that is installed, and no test: `cmake --build BUILD --target installed`.
