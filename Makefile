@@ -28,7 +28,7 @@ help: ## this list
 	@echo 'PREFIX (where install copies to), GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
-	@echo 'make gallery: from a fresh clone about 6 minutes on 2 idle cores, plus 1 or 2 to install missing packages'
+	@echo 'make gallery: from a fresh clone 8 to 10 minutes on 2 cores, plus 1 or 2 to install missing packages'
 	$(setup) build engines
 	$(npm)
 	$(configure)

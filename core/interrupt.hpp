@@ -22,7 +22,7 @@ void end_soon_when_interrupted();
 void end_by_ourselves_when_interrupted();
 /// True once the user has asked to stop.
 bool interrupted();
-/// What a Ctrl-C does, for a program that catches signals itself: work that looks at interrupted() stops.
+/// Asks to stop, as Ctrl-C does: for a program that catches signals itself.
 void request_interrupt();
 /// Takes it back once that work has stopped.
 void forget_interrupt();

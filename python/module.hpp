@@ -32,7 +32,7 @@ void parse_options(const py::dict& options, const std::function<void(CLI::App&)>
 /// A path, a text that is one, or a text of XML, which begins with '<'. Reads pictures beside the file; of a text from
 /// the working directory. Throws as read_scene().
 Scene scene_of(const py::object& scene);
-/// What is odd about the scene, a sentence each.
+/// Warnings about the scene, one sentence each.
 std::vector<std::string> warnings_of(const Scene& scene);
 
 /// The values as (height, width, 3) float32, not copied.

@@ -160,8 +160,8 @@ constexpr double alpha_squared(double exponent) { return 2 / (exponent + 2); }
 /// The largest factor that shadowing puts on a lobe times N.L; at grazing angles. 1 for a model without.
 double largest_shadowing(ModelId model, double exponent);
 
-/// What the model multiplies coefficient and lobe with, for cosines above 0: N.L where it applies that, else 1, and
-/// Smith's G / ((N.L) (N.V)) where it has shadowing.
+/// The factor of coefficient and lobe, for cosines above 0: N.L where the model applies it, else 1, times Smith's
+/// G / ((N.L) (N.V)) where it has shadowing.
 double geometry_factor(ModelId model, double exponent, double n_dot_l, double n_dot_v);
 
 /// Radiance per unit irradiance normal to the beam, for unit vectors pointing away from the surface; 0 where N.L <= 0.

@@ -69,7 +69,7 @@ LOBELIA_NAMESPACE v0 {
 
   // ---- render
 
-  /// What to change of a scene, and how to render. Empty and none: as the scene says.
+  /// Changes to a scene, and how to render it. An empty or missing value leaves the scene as it is.
   struct RenderSettings {
     std::string model, lobe, normalisation;  ///< names as in models(), lobes() and normalisations()
     std::optional<double> exponent;          ///< n, 1e-3 to 1e8

@@ -60,8 +60,9 @@ std::vector<Case> cases(double n) {
 }
 
 /// The stated bound, which covers all angles, narrowed for these vectors. With the light at the horizon or below it, the
-/// cosine limits the error, and with shadowing the factor of the cosines. Where the bound excludes nothing, float64 was chosen: the change of the lobe at this angle
-/// by float64's roundings of the vectors (docs/numerics.md; twice those, because Reflector normalises first).
+/// cosine limits the error; with shadowing, the factor of both cosines does. Where the bound excludes nothing, float64 was
+/// chosen. Then it is the change of the lobe at this angle by float64's roundings of the vectors (docs/numerics.md; twice
+/// those, because Reflector normalises first).
 double bound_here(double stated, const Highlight& h, const ScreenedVectors& v, const Factor& by) {
   constexpr double kUnit = 0x1p-53;
   const auto cosine = static_cast<double>(v.n_dot_l);

@@ -48,12 +48,12 @@ struct ScreenedVectors {
 ScreenedVectors screen(LobeAngle angle, const Triple& directions);
 long double screened_lobe(LobeId lobe, long double s, double exponent);
 
-/// What a model multiplies the lobe with (geometry_factor), and the error that four roundings of the cosines make in it, each
-/// of `unit`: next to nothing, but with shadowing all of it where light and eye are within a rounding of the horizon.
+/// geometry_factor() of a model, and its error if each cosine is off by four roundings of `unit`. The error is 0 without
+/// shadowing. With shadowing it is as large as the factor where light and eye are within a rounding of the horizon.
 struct Factor {
   long double value;
   double error;
-  /// What errors are relative to: with shadowing a highlight is higher than its lobe at grazing angles.
+  /// Errors are relative to this. Shadowing makes a highlight higher than its lobe at grazing angles.
   double peak() const { return std::max(1.0, double(value)); }
   /// A bound of the lobe's error, as one of the whole, relative to peak().
   double bound(double of_lobe, double lobe) const {
