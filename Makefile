@@ -9,6 +9,8 @@ SETUP  ?= yes
 FUZZ_SECONDS ?= 60
 MINUTES ?= 10
 PREFIX  ?= /usr/local
+BENCH   ?= out/bench.json
+BASE    ?= HEAD
 SEED    ?= $(shell date +%s)
 
 # SETUP=no: for systems whose packages have other names than Debian's.
@@ -18,14 +20,15 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery references test sanitize sanitize-short build bench fuzz chaos lint install uninstall package clean
+.PHONY: help gallery screenshots references test sanitize sanitize-short build bench bench-details bench-compare fuzz chaos lint docs install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /make \1\t/p' Makefile | expand -t 24
 	@echo
 	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
-	@echo 'PREFIX (where install copies to), GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
+	@echo 'PREFIX (where install copies to), GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED,'
+	@echo 'QUICK=yes, BENCH (where figures of speed are kept), BASE (a commit)'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	@echo 'make gallery: from a fresh clone 8 to 10 minutes on 2 cores, plus 1 or 2 to install missing packages'
@@ -33,7 +36,12 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(npm)
 	$(configure)
 	$(build) --target lobelia lobelia_image_io
-	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
+	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
+
+screenshots: ## pictures of every view of the gallery in OUT, for a desktop and a phone, into OUT-screenshots
+	$(setup) build browser
+	$(npm)
+	node gallery/web/screenshots.mjs "$(OUT)" "$(OUT)-screenshots"
 
 references: ## measures how far ours and every engine are from the formulas, into out/references (half an hour)
 	$(setup) build engines
@@ -43,7 +51,7 @@ references: ## measures how far ours and every engine are from the formulas, int
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
 test: ## builds everything and runs the test suite
-	$(setup) build engines browser shaders slurm python packaging
+	$(setup) build engines browser shaders slurm python packaging docs
 	$(npm)
 	$(configure)
 	$(build)
@@ -69,10 +77,24 @@ build: ## builds everything into build/release
 	$(configure)
 	$(build)
 
-bench: ## builds and runs the benchmarks
+bench: ## measures each goal of speed beside what it is held to, in one table; QUICK=yes takes two minutes
+	$(setup) build engines browser
+	$(npm)
+	$(configure)
+	$(build) --target lobelia lobelia_image_io bench_goals
+	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick) \
+	    --commit "$$(git describe --always --dirty=+ --exclude='*')" --committed "$$(git log -1 --format=%cs)" --keep "$(BENCH)"
+
+bench-details: ## times of lobes, lights, comparisons, files and engines, in many tables
+	$(setup) build engines
+	$(configure)
+	$(build) --target run_bench_details
+
+bench-compare: ## what became slower or faster since the commit BASE, both builds in turn
 	$(setup) build
 	$(configure)
-	$(build) --target run_bench
+	$(build) --target lobelia lobelia_image_io bench_paired
+	@scripts/bench_compare "$(PRESET)" "$(BASE)"
 
 fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_SECONDS (60) each; needs Clang
 	$(setup) build fuzz
@@ -96,6 +118,10 @@ ifeq ($(TIDY),yes)
 	$(build)
 	@scripts/lint tidy "build/$(PRESET)" "$(JOBS)"
 endif
+
+docs: ## writes docs/ as a site to out/docs, with a search; no network is needed to read it
+	$(setup) docs
+	@scripts/docs out/docs
 
 install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
 	$(setup) build

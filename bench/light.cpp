@@ -4,19 +4,19 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <thread>
 
+#include "bench/inputs.hpp"
 #include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "renderer/accelerator.hpp"
 #include "renderer/plan/plan.hpp"
-#include "renderer/scene/sphere_lattice.hpp"
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/convergence.hpp"
 #include "studies/cost/scenes.hpp"
@@ -34,33 +34,10 @@ constexpr double kGoodEfficiency = 0.8;
 
 int processors() { return int(std::max(1u, std::thread::hardware_concurrency())); }
 
-/// 10^decade spheres in a jittered regular lattice, all in the same cube. They are so small that a ray through it meets
-/// equally many on average, whatever their number.
+/// The columns, rows and layers of 10^decade spheres, as close to a cube as factors of two and five allow.
 constexpr int kDecades = 6;
-Scene crowd(int decade, int side) {
-  // Columns, rows and layers, as near a cube as factors of two and five allow.
-  constexpr int kLattices[kDecades + 1][3] = {
-      {1, 1, 1}, {5, 2, 1}, {5, 5, 4}, {10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}};
-  constexpr double kSide = 2, kMeanHits = 0.5;
-  const auto& n = kLattices[decade];
-  const double count = double(n[0]) * n[1] * n[2];
-  SphereLattice lattice;
-  lattice.columns = n[0], lattice.rows = n[1], lattice.layers = n[2];
-  lattice.step = {kSide / n[0], kSide / n[1], kSide / n[2]};
-  lattice.radius = kSide * std::sqrt(kMeanHits / (std::numbers::pi * count));
-  lattice.jitter = 1;
-  lattice.seed = 1;
-  Scene scene;
-  scene.camera = {{4, 3, 10}, {0, 0, 0}, {0, 1, 0}, 13};
-  scene.film = {side, side};
-  scene.materials = {{}};
-  scene.materials[0].id = "ball";
-  scene.materials[0].highlight.exponent = 1;
-  scene.materials[0].diffuse_reflectance = {0.6, 0.6, 0.6};
-  scene.lights = {DirectionalLight{normalize({-0.3, -0.8, -0.6}), {3, 3, 3}}};
-  lattice.append_to(scene.spheres);
-  return scene;
-}
+constexpr std::array<int, 3> kLattices[kDecades + 1] = {
+    {1, 1, 1}, {5, 2, 1}, {5, 5, 4}, {10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}};
 
 /// The share of the picture covered by spheres, from a sample of its pixels.
 double coverage(const Scene& scene, const Accelerator& accelerator) {
@@ -102,7 +79,7 @@ void measure_crowd() {
   constexpr int kSide = 512;
   constexpr double kRays = double(kSide) * kSide;
   std::vector<Scene> scenes;
-  for (int decade = 0; decade <= kDecades; ++decade) scenes.push_back(crowd(decade, kSide));
+  for (const auto& lattice : kLattices) scenes.push_back(crowd(lattice, kSide));
   std::vector<CrowdTimes> all(scenes.size()), one(scenes.size());
   for (int repeat = 0; repeat < 5; ++repeat)
     for (std::size_t d = 0; d < scenes.size(); ++d) {

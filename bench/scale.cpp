@@ -1,4 +1,4 @@
-// The limits of a farm of 1e6 cells on 1000 nodes: measured as far as this machine allows, simulated beyond.
+// The limits of farms of 1e6 cells and 1e8 cells on 1000 nodes: measured as far as this machine allows, simulated beyond.
 // docs/scale.md has the results and conclusions.
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
@@ -11,12 +11,12 @@
 #include <queue>
 #include <random>
 
+#include "bench/inputs.hpp"
 #include "core/files.hpp"
 #include "core/timing.hpp"
 #include "farm/farm.hpp"
 #include "farm/result_cache.hpp"
 #include "farm/slurm/slurm_farm.hpp"
-#include "lobelia_paths.hpp"
 
 namespace lobelia::bench {
 namespace {
@@ -24,17 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 
 Grid grid_of(const fs::path& directory, int cells) {
-  std::string text = fmt::format(
-      "<grid version=\"1\"><scene file=\"{}/reference_scenes/scenes/oblique_45.xml\"/>"
-      "<axis name=\"model\" values=\"phong_rdf, modified_phong, blinn_phong_rdf, blinn_phong_ndf, "
-      "modified_blinn_phong\"/><axis name=\"lobe\" values=\"cosine, cs16\"/><axis name=\"exponent\" values=\"",
-      LOBELIA_SOURCE_DIR);
-  for (int i = 1; i <= cells / 10 && i <= 10000; ++i) text += fmt::format("{} ", i * 1.25);
-  text += "\"/>";
-  if (cells > 100000)
-    text += "<axis name=\"size\" values=\"64, 96, 128, 160, 192, 224, 256, 288, 320, 352\"/>";
-  text += "<engine name=\"analytic\"/></grid>";
-  write_file(directory / "grid.xml", text);
+  constexpr int kMaxExponents = 10000;
+  const std::string sizes =
+      "<axis name=\"size\" values=\"64, 96, 128, 160, 192, 224, 256, 288, 320, 352\"/>";
+  write_file(directory / "grid.xml", grid_of_models(std::min(cells / 10, kMaxExponents),
+                                                    cells / 10 > kMaxExponents ? sizes : ""));
   return read_grid(directory / "grid.xml");
 }
 
@@ -114,10 +108,12 @@ void caching(const fs::path& directory) {
 
 struct Cluster {
   int nodes = 1;
-  int cores = 32;                    ///< of a node
-  int threads = 32;                  ///< of an element
-  double latency = 3;                ///< seconds until the next element runs (docs/farm.md)
-  double metadata_per_second = 2e4;  ///< operations that the shared file system's server answers
+  int cores = 32;      ///< of a node
+  int threads = 32;    ///< of an element
+  double latency = 3;  ///< seconds until the next element runs (docs/farm.md)
+  double metadata_per_second =
+      2e4;          ///< operations that one server of the shared file system answers
+  int servers = 1;  ///< the cache's shelves are spread evenly over them
   double failures_per_node_day = 0.01, requeue = 300;
 };
 
@@ -168,7 +164,7 @@ Outcome simulate(const std::vector<SlurmJob>& jobs, const Cluster& cluster, std:
       end = std::max(end, start + seconds);
     }
     outcome.metadata += operations;
-    now = std::max(end, now + operations / cluster.metadata_per_second);
+    now = std::max(end, now + operations / (cluster.metadata_per_second * cluster.servers));
     work += phase_work;
   }
   outcome.seconds = now;
@@ -220,6 +216,32 @@ void simulation(std::size_t cells) {
     }
 }
 
+/// 1e8 cells: a hundred farms of 1e6, one after the other. Three are simulated, each with failures of its own.
+void very_large_simulation() {
+  constexpr int kFarms = 100, kSimulated = 3;
+  const std::vector<SlurmJob> jobs = jobs_of(1000000);
+  fmt::print(
+      "\nSimulated: 1e8 cells as {} farms of 1e6, one after the other, on 1000 such nodes; {} farms were simulated\n\n"
+      "| file servers | elements of a farm | days | cores busy | names a second | lost elements |\n"
+      "|---|---|---|---|---|---|\n",
+      kFarms, kSimulated);
+  for (const int servers : {1, 10, 100, 1000}) {
+    Cluster cluster;
+    cluster.nodes = 1000;
+    cluster.servers = servers;
+    Outcome sum;
+    for (int farm = 0; farm < kSimulated; ++farm) {
+      const Outcome one = simulate(jobs, cluster, std::uint64_t(farm + 1));
+      sum.elements += one.elements, sum.seconds += one.seconds, sum.busy += one.busy;
+      sum.metadata += one.metadata, sum.lost += one.lost;
+    }
+    const double times = double(kFarms) / kSimulated;
+    fmt::print("| {} | {} | {:.1f} | {:.0f} % | {:.0f} | {:.0f} |\n", servers,
+               sum.elements / kSimulated, sum.seconds * times / 86400, 100 * sum.busy / kSimulated,
+               sum.metadata / sum.seconds, sum.lost * times);
+  }
+}
+
 }  // namespace
 }  // namespace lobelia::bench
 
@@ -231,4 +253,5 @@ int main() {
   bench::caching(directory.path());
   bench::simulation(100000);
   bench::simulation(1000000);
+  bench::very_large_simulation();
 }

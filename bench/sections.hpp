@@ -1,16 +1,10 @@
-// The sections of `make bench`. Each prints a table, checks what it timed, and ends with its bottleneck.
+// The sections of `make bench-details`. Each prints a table, checks what it timed, and ends with its bottleneck.
 #pragma once
 
-#include "core/process.hpp"
+#include "bench/inputs.hpp"
 #include "core/timing.hpp"
 
 namespace lobelia::bench {
-
-/// The file of a canonical scene.
-std::string scene_file(std::string_view name);
-
-/// Runs a command without showing its output. A failure ends this program.
-ProcessResult run(const std::vector<std::string>& command);
 
 void lobes();                            ///< nanoseconds to evaluate a lobe
 void pictures();                         ///< megapixels per second, for each model and lobe

@@ -10,21 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void render_file(const std::string& program, const char* scene, int width, int height,
-                 const fs::path& to) {
-  run({program, "render", scene_file(scene), "--width", std::to_string(width), "--height",
-       std::to_string(height), "-q", "-o", to});
-}
-
-/// All metrics, with a limit that always holds, so that the exit code is 0.
-ProcessResult compare(const std::string& program, const fs::path& a, const fs::path& b,
-                      std::vector<std::string> options) {
-  std::vector<std::string> command{program,  "compare",     a, b, "--no-default-limits",
-                                   "--fail", "max_abs=1e30"};
-  command.insert(command.end(), options.begin(), options.end());
-  return run(command);
-}
-
 /// A question that another program answers, too.
 struct Question {
   std::string name;

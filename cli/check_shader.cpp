@@ -1,5 +1,6 @@
 // lobelia check-shader FILE
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
 #include "core/files.hpp"
@@ -119,8 +120,10 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
   shader.add("--on", options->on, "",
              fmt::format("What runs GLSL: {}; otherwise egl. HLSL runs on vulkan, WGSL in Chromium",
                          join(kOnNames)));
-  shader.add_number("--time-limit", options->time_limit, 0.1, 3600,
-                    "Seconds after which a shader is taken for an endless loop");
+  add_common(shader, "--time-limit", options->time_limit,
+             ": the shader is taken for an endless loop then")
+      ->check(between(0.1, 3600))
+      ->capture_default_str();
   OptionGroup model(*command, "Model");
   model.add("--model", options->model, "", fmt::format("Model: {}", join(model_names())))
       ->required();
@@ -137,8 +140,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       ->expected(1, 20)
       ->delimiter(',');
   OptionGroup output(*command, "Output");
-  output.add("--json", options->json, "FILE|-",
-             "Write the record (kind shader-check) to FILE; with - to stdout, and no table");
+  add_json(output, options->json, "shader-check");
   output.add("--html", options->html, "FILE", "Write a page with spheres and a plot");
   output.add_flag("--no-costs", options->no_costs,
                   "Measure neither half floats, nor instructions, nor time");

@@ -15,6 +15,7 @@
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/scratch_memory.hpp"
 #include "core/threads.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
@@ -29,26 +30,6 @@ namespace fs = std::filesystem;
 std::string in_shortest_form(const std::string& id) {
   const MetricOutput* output = find_metric_output(id);
   return output ? std::string(output->id) : id;
-}
-
-/// Throws unless the second reference and the pictures of noise can be told which pair they are of.
-void check_companions(const CompareJob& job, const Pairing& pairing) {
-  const auto fail = [&](std::string_view what) {
-    throw Error(ExitCode::kUsage, fmt::format("{} needs two files, or folders that are paired by "
-                                              "name, in which it has the same name",
-                                              what));
-  };
-  const bool by_name = has_folders_by_name(job, pairing);
-  if (!by_name && !is_one_pair(pairing)) {
-    if (!job.c.empty()) fail("--reference-floor");
-    if (!job.noise.files("").empty()) fail("a picture of noise");
-  }
-  std::error_code unknown;
-  if (!job.c.empty() && fs::is_directory(job.c, unknown) != by_name)
-    throw Error(ExitCode::kInput,
-                fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
-                            job.pictures.given.front(), by_name ? "" : "not ", job.c,
-                            by_name ? " not" : ""));
 }
 
 /// Prints what the limits let pass of changed copies of the picture.
@@ -123,14 +104,11 @@ void check_rules(const CompareArguments& options) {
     }
 }
 
-/// Whether stdout shall have colours: no-color.org.
-bool has_colours(const std::string& choice) {
-  const char* no = std::getenv("NO_COLOR");
-  return choice == "always" || (choice == "auto" && ::isatty(STDOUT_FILENO) == 1 && !(no && *no));
-}
-
 ExitCode run_compare(CompareArguments options) {
-  options.print.colour = has_colours(options.colour);
+  choose_colours(options.colour);
+  options.print.colour = stdout_has_colours();
+  options.print.quiet = verbosity().quiet;
+  options.print.verbose = verbosity().verbose;
   ComparisonOptions& comparison = options.job.comparison;
   for (const std::string& given : {options.a, options.b})
     if (!given.empty()) options.job.pictures.given.push_back(given);
@@ -187,14 +165,16 @@ ExitCode run_compare(CompareArguments options) {
   options.job.difference.check(!one, comparison.viewing.hdr_exposures.has_value());
   require_outputs(options, pairing);
 
+  keep_large_pieces_in_files();
   SetReport report;
   {
     FilesTogether files;
     const std::size_t count = pairs_of(pairing).size();
-    ProgressLine progress(!one && !options.print.quiet);
+    ProgressLine progress;
     ThreadLimit(options.threads).run([&] {
       report = compare_pairs(options.job, pairing, [&](std::size_t done) {
-        progress.show(double(done) / double(count), fmt::format("{} of {} pairs", done, count));
+        if (!one)
+          progress.show(double(done) / double(count), fmt::format("{} of {} pairs", done, count));
       });
     });
     progress.clear();
@@ -210,11 +190,7 @@ ExitCode run_compare(CompareArguments options) {
   if (options.format == "github") fmt::print("{}", set_github(report));
   if (unreadable) throw Error(ExitCode::kInput, report.pairs.front().error);
   if (options.accept && accept_pictures(options, pairing, report)) return ExitCode::kSuccess;
-  if (report.pairs.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("no pair to compare: {} references have no picture, {} pictures no "
-                            "reference, and {} files are no pictures or do not fit the pattern",
-                            report.missing.size(), report.extra.size(), report.passed_over));
+  require_pairs(report);
   return set_exit_code(report);
 }
 
@@ -271,6 +247,33 @@ void add_display_options(OptionGroup& viewing, DisplayViewChoice& display) {
 }
 
 }  // namespace
+
+void check_companions(const CompareJob& job, const Pairing& pairing) {
+  const auto fail = [&](std::string_view what) {
+    throw Error(ExitCode::kUsage, fmt::format("{} needs two files, or folders that are paired by "
+                                              "name, in which it has the same name",
+                                              what));
+  };
+  const bool by_name = has_folders_by_name(job, pairing);
+  if (!by_name && !is_one_pair(pairing)) {
+    if (!job.c.empty()) fail("--reference-floor");
+    if (!job.noise.files("").empty()) fail("a picture of noise");
+  }
+  std::error_code unknown;
+  if (!job.c.empty() && fs::is_directory(job.c, unknown) != by_name)
+    throw Error(ExitCode::kInput,
+                fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
+                            job.pictures.given.front(), by_name ? "" : "not ", job.c,
+                            by_name ? " not" : ""));
+}
+
+void require_pairs(const SetReport& report) {
+  if (report.pairs.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("no pair to compare: {} references have no picture, {} pictures no "
+                            "reference, and {} files are no pictures or do not fit the pattern",
+                            report.missing.size(), report.extra.size(), report.passed_over));
+}
 
 MetricLimit parse_limit(std::string_view where, const std::string& text) {
   // The last one, because an id may hold another: relmse.eps=0.01.
@@ -406,9 +409,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   options->viewing.add_to(*command, viewing);
   add_display_options(look, options->display);
 
-  output.add("--json", options->json, "FILE|-",
-             "Write the record (kind comparison, of folders comparison-set, with --sensitivity "
-             "sensitivity) to FILE; with - to stdout, in place of the table");
+  add_json(output, options->json,
+           "comparison, of folders comparison-set, with --sensitivity sensitivity");
   output.add("--csv", options->csv, "FILE|-",
              "Write a table with a line for each pair; with - to stdout, likewise");
   output.add("--junit", options->junit, "FILE.xml|-",
@@ -420,12 +422,6 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   output.add_choice("--format", options->format, {"text", "github"},
                     "With github, print a line for each problem besides, which GitHub Actions "
                     "shows beside the change");
-  auto* quiet =
-      output.add_flag("-q,--quiet", options->print.quiet, "Print only what does not pass");
-  output
-      .add_flag("-v,--verbose", options->print.verbose,
-                "Of folders, print a line for each pair that passes, and every metric")
-      ->excludes(quiet);
   output.add_choice("--color", options->colour, {"auto", "always", "never"},
                     "Colour the verdicts; auto: on a terminal, unless $NO_COLOR is set");
   output.add_choice("--junit-undecided", options->junit_undecided, {"failure", "skipped"},
@@ -440,11 +436,11 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->needs(html);
   output.add("--title", options->html.title, "TEXT", "The title of the report")->needs(html);
   job.difference.add_to(*command);
-  output.add("--threads", options->threads, "", "Threads that work; 0: one for each processor")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_common(output, "--threads", options->threads)->check(between(0, 1024))->capture_default_str();
+  options->limits.add_time_limit_to(output);
   command->footer(footer());
-  command->callback([options, &exit_code] { exit_code = run_compare(*options); });
+  command->callback(
+      [options, &exit_code] { options->limits.run([&] { exit_code = run_compare(*options); }); });
 }
 
 }  // namespace lobelia::cli

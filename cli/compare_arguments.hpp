@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/common_options.hpp"
 #include "cli/compare_html.hpp"
 #include "cli/compare_pictures.hpp"
 #include "cli/output_files.hpp"
@@ -27,6 +28,7 @@ struct CompareArguments {
   std::vector<std::string> fail, warn;
   DisplayViewChoice display;
   int threads = 0;
+  WorkLimits limits;
 };
 
 /// Throws Error(kUsage) unless `text` is METRIC=LIMIT. `where` names it: "--fail".
@@ -38,6 +40,11 @@ Tolerance parse_tolerance(std::string_view where, const std::string& text);
 /// this directory. Paths in it are from its own directory. Throws Error(kInput) for a project that cannot be read, and
 /// Error(kUsage) for what its values do not allow.
 void apply_project(CompareArguments& options);
+
+/// Throws unless the second reference and the pictures of noise can be told which pair they are of.
+void check_companions(const CompareJob& job, const Pairing& pairing);
+/// Throws Error(kInput) unless there is a pair.
+void require_pairs(const SetReport& report);
 
 /// Whether a report goes to stdout in place of the table. Throws Error(kUsage) for two.
 bool prints_report(const CompareArguments& options);

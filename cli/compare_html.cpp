@@ -302,7 +302,7 @@ void require_place(const HtmlReport& html) {
   if (index.has_parent_path()) make_directories(index.parent_path());
   std::error_code unknown;
   if (!html.single_file && fs::exists(index, unknown) &&
-      !fs::exists(html.path / gallery::kSiteList, unknown))
+      gallery::kind_of_site(html.path) != gallery::SiteKind::kReport)
     throw Error(ExitCode::kOutput, fmt::format("{}: is there already, and not of a report; choose "
                                                "another folder",
                                                printable_path(index.string())));

@@ -1,5 +1,6 @@
 #include <tuple>
 
+#include "cli/common_options.hpp"
 #include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
 #include "compare/require_same_size.hpp"
@@ -49,7 +50,9 @@ void NoiseFlags::add_to(CLI::App& command) {
   group.add_number(
       "--bootstrap", judged_.bootstraps, kFewestBootstraps, kMostBootstraps,
       "Pairs with noise that error bars are made of; each figure is measured twice as often");
-  group.add_number("--noise-seed", judged_.seed, 0, 1 << 30, "Chooses that noise");
+  add_common(group, "--seed", judged_.seed, " of that noise")
+      ->check(between(0, 1 << 30))
+      ->capture_default_str();
 }
 
 void NoiseFlags::apply(ComparisonOptions& options) const {

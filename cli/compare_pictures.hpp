@@ -51,7 +51,7 @@ class NoiseFlags {
 
   Side a_, b_;
   std::string shared_, from_layers_;
-  double freedom_ = 15;  ///< as `lobelia reference --standard-error` has it
+  double freedom_ = kFreedomOfErrors;
   NoiseOptions judged_;
 };
 

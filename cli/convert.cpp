@@ -1,6 +1,7 @@
 // lobelia convert --exponent N --to MODEL
 #include "studies/convert/convert.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
 #include "records/record.hpp"
@@ -12,9 +13,10 @@ namespace lobelia::cli {
 namespace {
 
 struct ConvertArguments {
-  std::string from, to, measure = "max", record, svg;
+  std::string from, to, measure = "max", json, svg;
   std::optional<double> exponent, alpha, roughness;
   double f0 = 1;
+  WorkLimits limits;
 };
 
 conversion::ShadingModel shading_model(const std::string& name, std::string_view option) {
@@ -65,12 +67,12 @@ ConvertResult converted(const conversion::Request& request) {
 }
 
 void run_convert(const ConvertArguments& options) {
-  if (options.record == kStdout && options.svg == kStdout)
-    throw Error(ExitCode::kUsage, "only one of -o and --svg can go to stdout");
+  if (options.json == kStdout && options.svg == kStdout)
+    throw Error(ExitCode::kUsage, "only one of --json and --svg can go to stdout");
   OutputFiles outputs;
-  for (const std::string& path : {options.record, options.svg}) outputs.writes_report(path);
+  for (const std::string& path : {options.json, options.svg}) outputs.writes_report(path);
   const ConvertResult result = converted(request_of(options));
-  write_reports(result.text, {{options.record, result.record}, {options.svg, result.svg}});
+  write_reports(result.text, {{options.json, result.record}, {options.svg, result.svg}});
 }
 
 }  // namespace
@@ -96,13 +98,11 @@ void add_convert(CLI::App& app, ExitCode&) {
   to.add_number("--f0", options->f0, 1e-3, 1,
                 "Reflectance head on; ggx has Schlick's Fresnel factor for it");
   OptionGroup output(*command, "Output");
-  output.add(
-      "-o,--output", options->record, "FILE|-",
-      "Write the record (kind conversion, of a range conversion-table) to FILE; with - to stdout, "
-      "and no table");
+  add_json(output, options->json, "conversion, of a range conversion-table");
   output.add(
       "--svg", options->svg, "FILE|-",
       "Write a chart of both highlights, or of the range, with the rules of thumb; with - likewise");
+  options->limits.add_to(output);
   command->footer(
       "A highlight is the light that leaves per steradian by the angle of the eye, with light along the\n"
       "normal of a flat surface. 'max' is the largest difference in % of the peak, 'misplaced' the energy\n"
@@ -117,7 +117,7 @@ void add_convert(CLI::App& app, ExitCode&) {
       "  lobelia convert --from phong_rdf --exponent 20 --to blinn_phong_rdf --svg both.svg\n"
       "\n"
       "Exit codes: 0 done, 2 usage, 4 an output cannot be written.");
-  command->callback([options] { run_convert(*options); });
+  command->callback([options] { options->limits.run([&] { run_convert(*options); }); });
 }
 
 }  // namespace lobelia::cli

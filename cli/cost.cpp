@@ -1,8 +1,10 @@
 #include <algorithm>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "records/record.hpp"
@@ -18,7 +20,8 @@ struct CostArguments {
   std::vector<std::string> scenes, levels;
   std::string directory, json;
   EnginePrograms programs;
-  bool all = false, quick = false, thorough = false, quiet = false;
+  bool all = false, quick = false, thorough = false;
+  WorkLimits limits;
 };
 
 /// The levels named by --level, or all that have something to measure.
@@ -44,11 +47,14 @@ void run_cost(const CostArguments& options) {
                                        : cost::Effort::kUsual;
   for (const auto& [engine, program] : options.programs.given())
     measured.programs.emplace_back(engine, program.string());
+  OutputFiles outputs;
+  for (const std::string& file : options.scenes) outputs.reads(file);
+  outputs.writes_report(options.json);
   if (!options.directory.empty()) {
     make_directories(options.directory);
     require_writable(std::filesystem::path(options.directory) / "cost.json");
   }
-  ProgressLine line(!options.quiet);
+  ProgressLine line;
   records::Cost report{command_line(), records::this_host(), kernels().instruction_set, {}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double done = double(i) / double(levels.size());
@@ -62,13 +68,9 @@ void run_cost(const CostArguments& options) {
     }
   }
   line.clear();
-  if (!options.directory.empty()) {
-    FilesTogether files;
-    cost::write_cost(report, options.directory);
-    files.commit();
-  }
-  fmt::print("{}",
-             options.json == "-" ? record_text(report) : cost::cost_text(report, options.all));
+  FilesTogether files;
+  if (!options.directory.empty()) cost::write_cost(report, options.directory);
+  write_reports(cost::cost_text(report, options.all), {{options.json, record_text(report)}}, files);
 }
 
 std::string level_lines() {
@@ -98,12 +100,11 @@ void add_cost(CLI::App& app, ExitCode&) {
       ->excludes(quick);
   options->programs.add_to(*command);
   OptionGroup output(*command, "Output");
-  output.add("-o,--output", options->directory, "DIR",
-             "Write cost.json, cost.csv and a chart (.svg) of each table's front into DIR");
-  output.add("--json", options->json, "-", "With -, print the record in place of the tables")
-      ->check(CLI::IsMember({"-"}));
+  add_common(output, "--output", options->directory,
+             ": cost.json, cost.csv and a chart (.svg) of each table's front", "DIR");
+  add_json(output, options->json, "cost");
   output.add_flag("--all", options->all, "Print the variants that others dominate as well");
-  output.add_flag("-q,--quiet", options->quiet, "No progress line");
+  options->limits.add_to(output);
   command->footer(
       "Levels:\n" + level_lines() +
       "\nTimes are medians of interleaved rounds, +- half the spread between quartiles. "
@@ -112,7 +113,7 @@ void add_cost(CLI::App& app, ExitCode&) {
       "  lobelia cost reference_scenes/scenes/oblique_45.xml -o cost\n"
       "\nExit codes: 0 done, 2 usage, 3 a scene is unreadable, 4 an output cannot be "
       "written, 5 an engine failed,\n130 Ctrl-C, 143 SIGTERM. Times decide nothing.");
-  command->callback([options] { run_cost(*options); });
+  command->callback([options] { options->limits.run([&] { run_cost(*options); }); });
 }
 
 }  // namespace lobelia::cli

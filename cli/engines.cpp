@@ -3,7 +3,9 @@
 #include <iterator>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "core/standard_streams.hpp"
 #include "farm/grid.hpp"
 #include "records/record.hpp"
@@ -16,7 +18,8 @@ namespace {
 struct EnginesArguments {
   EnginePrograms programs;
   std::vector<std::string> files;
-  bool json = false, models = false, allow_commands = false;
+  std::string json;
+  bool models = false, allow_commands = false;
 };
 
 /// The engines that grids and engine files describe.
@@ -99,6 +102,10 @@ void print_models(const std::vector<std::unique_ptr<Engine>>& engines) {
 }
 
 ExitCode run_engines(const EnginesArguments& options) {
+  OutputFiles outputs;
+  for (const std::string& file : options.files) outputs.reads(file);
+  outputs.writes_report(options.json);
+  const bool prints = options.json != kStdout;
   records::Engines record;
   std::vector<std::string> problems;
   std::vector<std::unique_ptr<Engine>> engines;
@@ -113,20 +120,18 @@ ExitCode run_engines(const EnginesArguments& options) {
   for (const auto& engine : engines) {
     const EngineInfo& info = engine->info();
     const EngineStatus& status = engine->status();
-    if (options.json)
+    if (!options.json.empty())
       record.engines.push_back(engine_record(info, status, engine_models(*engine)));
-    else
-      print_engine(info, status);
+    if (prints) print_engine(info, status);
     if (!status.available())
       problems.push_back(printable(
           fmt::format("{}: {}: {}", info.title, state_name(status.state), status.why), 2000));
   }
-  if (options.json) {
-    fmt::print("{}", record_text(record));
-  } else {
+  if (prints) {
     fmt::print("\n");
     print_models(engines);
   }
+  write_reports("", {{options.json, record_text(record)}});
   std::fflush(stdout);  // so that a message stands behind the list where both go to one file
   for (const auto& problem : problems) say("lobelia: {}\n", problem);
   return problems.empty() ? ExitCode::kSuccess : ExitCode::kEngine;
@@ -143,7 +148,8 @@ void add_engines(CLI::App& app, ExitCode& exit_code) {
   options->programs.add_to(*command);
   command->add_flag("--allow-commands", options->allow_commands,
                     "Ask the programs that these files name for their versions");
-  auto* json = command->add_flag("--json", options->json, "Print the list as JSON");
+  OptionGroup group(*command);
+  auto* json = add_json(group, options->json, "engines");
   command
       ->add_flag("--models", options->models,
                  "Print only which models each shades, whether it is here or not")

@@ -2,6 +2,7 @@
 #include "shaders/export.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "core/files.hpp"
@@ -48,7 +49,7 @@ void run_export(const ExportArguments& options) {
 }  // namespace
 
 void add_export(CLI::App& app, ExitCode&) {
-  auto* command = app.add_subcommand("export", "Write models as shader functions, to take home");
+  auto* command = app.add_subcommand("export", "Write models as shader functions");
   auto options = std::make_shared<ExportArguments>();
   OptionGroup group(*command);
   group.add("MODEL", options->models, "", fmt::format("Models: {}", join(model_names())))
@@ -85,7 +86,7 @@ void add_export(CLI::App& app, ExitCode&) {
                        "with a formula that holds in half floats, for phones",
                        join(shader_precision_names())))
       ->capture_default_str();
-  group.add("-o,--output", options->output, "FILE", "File to write; otherwise standard output");
+  add_common(group, "--output", options->output, "; otherwise stdout", "FILE");
   command->footer(
       "What is written needs nothing of Lobelia, and says what each function returns, where the\n"
       "cosine is, and which integral its coefficient makes 1. Two exports may be used together; in\n"

@@ -1,5 +1,7 @@
 #include "cli/farm.hpp"
+
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/publish.hpp"
@@ -17,7 +19,7 @@ struct FarmArguments {
   SlurmSettings slurm;
   FarmOptions farm;
   double time_limit = 600, no_progress_limit = 300;
-  bool memory_given = false, quiet = false, dry_run = false, allow_commands = false;
+  bool memory_given = false, dry_run = false, allow_commands = false;
 };
 
 FarmOptions farm_options(const FarmArguments& options) {
@@ -73,11 +75,13 @@ void print_summary(const FarmSummary& summary, const FarmArguments& options) {
   const auto some = [](std::size_t count, const char* what) {
     return count > 0 ? fmt::format(", {} {}", count, what) : "";
   };
-  fmt::print("{} cells: {} failed, {} differ, {} pass{}{}{}; {} pictures rendered, {} kept\n",
-             summary.cells, summary.failed, summary.differs, summary.pass,
-             some(summary.undecided, "undecided"), some(summary.unchecked, "not compared"),
-             some(summary.missing, "not done"), summary.rendered, summary.kept);
-  if (!options.quiet) fmt::print("{}", work_text(summary));
+  fmt::print("{}",
+             with_colours(fmt::format(
+                 "{} cells: {} failed, {} differ, {} pass{}{}{}; {} pictures rendered, {} kept\n",
+                 summary.cells, summary.failed, summary.differs, summary.pass,
+                 some(summary.undecided, "undecided"), some(summary.unchecked, "not compared"),
+                 some(summary.missing, "not done"), summary.rendered, summary.kept)));
+  if (!verbosity().quiet) fmt::print("{}", work_text(summary));
 }
 
 /// Prints the summary, publishes the gallery if it is wanted, and returns the exit code of both.
@@ -93,11 +97,9 @@ ExitCode run_on_cluster(const Grid& grid, const FarmArguments& options) {
   if (options.memory_given)
     run_options.slurm.memory =
         memory_of_element(parse_size(options.memory), run_options.slurm.processors);
-  const SlurmFarmSummary summary =
-      follow(run_options, options.quiet, [&](const SlurmRunOptions& slurm) {
-        return run_farm_on_slurm(grid, options.grid, options.directory, farm_options(options),
-                                 slurm);
-      });
+  const SlurmFarmSummary summary = follow(run_options, [&](const SlurmRunOptions& slurm) {
+    return run_farm_on_slurm(grid, options.grid, options.directory, farm_options(options), slurm);
+  });
   if (summary.slurm.detached) {
     for (const auto& warning : summary.farm.warnings) warn(warning);
     fmt::print("submitted; 'lobelia farm status {}' looks at it\n",
@@ -121,7 +123,7 @@ ExitCode run_farm_command(const FarmArguments& options) {
     return ExitCode::kSuccess;
   }
   if (options.slurm.is_wanted()) return run_on_cluster(grid, options);
-  ProgressLine line(!options.quiet);
+  ProgressLine line;
   FarmOptions farm = farm_options(options);
   farm.on_progress = [&](const FarmProgress& progress) {
     if (progress.total > 0)
@@ -143,25 +145,27 @@ ExitCode run_farm_command(const FarmArguments& options) {
 }  // namespace
 
 void add_farm(CLI::App& app, ExitCode& exit_code) {
-  auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
+  auto* command = app.add_subcommand(
+      "farm", "Render every cell of a grid and its references, and compare them");
   auto options = std::make_shared<FarmArguments>();
   FarmOptions& farm = options->farm;
   OptionGroup group(*command);
   group.add("GRID", options->grid, "", "Grid file (docs/grid_format.md)");
-  group.add("-o,--output", options->directory, "DIR", "Directory for pictures and records");
+  add_common(group, "--output", options->directory, ": pictures and records", "DIR");
   group.add("--cache", farm.cache, "DIR",
             "Where results are kept, for any number of grids; $LOBELIA_CACHE, else DIR/cache");
   group.add_flag("--dry-run", options->dry_run, "Only list the jobs and why each is to be done");
   group.add("--filter", options->filter, "PATTERNS",
             "Only jobs of these names: 'phong*:-*blender' is those that begin with phong and do "
             "not end in blender");
-  group.add_number("--threads", farm.threads, 0, 1024, "Threads; 0 is all processors");
-  group.add_number("--time-limit", options->time_limit, 0.1, 1e6,
-                   "Seconds that a picture may take");
+  add_common(group, "--threads", farm.threads)->check(between(0, 1024))->capture_default_str();
+  add_common(group, "--time-limit", options->time_limit, ": a picture has failed then")
+      ->check(between(0.1, 1e6))
+      ->capture_default_str();
   group.add_number("--no-progress-limit", options->no_progress_limit, 0, 1e6,
                    "Seconds in which an engine may say and write nothing; 0 is any");
   group.add_number("--attempts", farm.attempts, 1, 100,
-                   "At a picture that fails in a way that may not repeat itself");
+                   "Tries for a picture whose failure may be temporary");
   auto* memory = group.add(
       "--memory", options->memory, "SIZE",
       "What a job's processes may use together: 4G; 0 is any. On a cluster an element asks for it for "
@@ -186,7 +190,6 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       "--allow-commands", options->allow_commands,
       "Start the programs that the grid names (docs/own_engine.md); without it only if the "
       "grid lies in a folder that $LOBELIA_ALLOW_COMMANDS_IN names");
-  group.add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);
   options->slurm.add_to(*command);
   add_farm_upkeep(*command, exit_code);

@@ -25,7 +25,7 @@ class SlurmSettings {
 };
 
 /// Follows a run on a cluster to its end, with its progress on stderr.
-SlurmFarmSummary follow(SlurmRunOptions options, bool quiet,
+SlurmFarmSummary follow(SlurmRunOptions options,
                         const std::function<SlurmFarmSummary(const SlurmRunOptions&)>& run);
 
 /// doctor, and the hidden exec-chunk, finish and doctor-on-node, which the elements of a run call.

@@ -12,11 +12,11 @@ void SlurmSettings::add_to(CLI::App& command) {
   SlurmOptions& slurm = run_.slurm;
   group.add_choice("--executor", executor_, {"local", "slurm"},
                    "local, or slurm: the same jobs as array jobs of a cluster");
-  group.add("--partition", slurm.partition, "", "As sbatch has it; likewise the next four");
+  group.add("--partition", slurm.partition, "", "Partition, as sbatch has it");
   group.add("--time", slurm.time, "", "Of an element: 30, 1:00:00");
-  group.add("--account", slurm.account, "", "");
-  group.add("--qos", slurm.qos, "", "");
-  group.add("--constraint", slurm.constraint, "", "");
+  group.add("--account", slurm.account, "", "Account, as sbatch has it");
+  group.add("--qos", slurm.qos, "", "Quality of service, as sbatch has it");
+  group.add("--constraint", slurm.constraint, "", "Features of nodes, as sbatch has it");
   group.add_flag("--exclusive", slurm.exclusive, "No other job on the nodes: for timings");
   group.add_number("--cpus-per-task", slurm.processors, 1, 1024, "Threads of an element");
   group.add("--throttle", slurm.throttle, "", "Elements at once; 0 is any number")
@@ -24,10 +24,11 @@ void SlurmSettings::add_to(CLI::App& command) {
   group
       .add("--sbatch", slurm.raw, "", "Further options of sbatch, each '--name=value'; repeatable")
       ->allow_extra_args(false);
-  group.add_number("--chunk-seconds", run_.chunks.target_seconds, 0.1, 1e6, "Work of an element");
-  group.add_number("--rounds", run_.rounds, 1, 100, "Times that what is missing is submitted");
+  group.add_number("--chunk-seconds", run_.chunks.target_seconds, 0.1, 1e6,
+                   "Target seconds of an array task");
+  group.add_number("--rounds", run_.rounds, 1, 100, "How often missing jobs are submitted again");
   group.add_number("--poll-seconds", poll_seconds_, 0.05, 3600,
-                   "Between the first looks at the queue");
+                   "Seconds between the first polls of the queue");
   group.add_flag("--detach", run_.detach,
                  "Submit and leave; 'lobelia farm status DIR --attach' comes back");
 }
@@ -44,9 +45,9 @@ SlurmRunOptions SlurmSettings::run_options() const {
   return options;
 }
 
-SlurmFarmSummary follow(SlurmRunOptions options, bool quiet,
+SlurmFarmSummary follow(SlurmRunOptions options,
                         const std::function<SlurmFarmSummary(const SlurmRunOptions&)>& run) {
-  ProgressLine line(!quiet);
+  ProgressLine line;
   const auto say = options.say;
   options.say = [&](const std::string& sentence) {
     line.clear();

@@ -1,8 +1,10 @@
 #include <algorithm>
 
+#include "cli/common_options.hpp"
 #include "cli/farm.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "cli/publish.hpp"
 #include "core/numbers.hpp"
 #include "farm/upkeep.hpp"
@@ -12,9 +14,9 @@ namespace lobelia::cli {
 namespace {
 
 struct UpkeepArguments {
-  std::string directory, cell, job, max_size;
+  std::string directory, cell, job, max_size, json;
   EnginePrograms programs;
-  bool json = false, attach = false, remove = false, all = false, dry_run = false, quiet = false;
+  bool attach = false, remove = false, all = false, dry_run = false;
 };
 
 struct Upkeep {
@@ -64,25 +66,27 @@ std::string cluster_text(const std::string& directory) {
 void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
   const auto [command, options] =
       add_upkeep(farm, "status", "What has become of a farm's cells so far");
-  command->add_flag("--json", options->json, "As a record (kind farm-status, docs/reference)");
+  OptionGroup group(*command);
+  add_json(group, options->json, "farm-status");
   command->add_flag("--attach", options->attach,
                     "Go back to a run on a cluster and follow it to its end");
   command->callback([options = options, &exit_code] {
     if (options->attach) {
       SlurmRunOptions slurm = SlurmSettings().run_options();
-      const auto followed = follow(slurm, false, [&](const SlurmRunOptions& with_progress) {
+      const auto followed = follow(slurm, [&](const SlurmRunOptions& with_progress) {
         return attach_to_slurm_run(options->directory, with_progress);
       });
       exit_code = publish_if_wanted(options->directory, followed.gallery);
     }
+    OutputFiles().writes_report(options->json);
     const records::FarmStatus status = farm_status(options->directory);
-    if (options->json) {
-      fmt::print("{}", record_text(status));
-      return;
-    }
+    write_reports("", {{options->json, record_text(status)}});
+    if (options->json == kStdout) return;
+    std::string text;
     for (const auto& failure : status.failures)
-      fmt::print("failed: {}: {}: {} ({} attempts): {}\n", printable(failure.cell), failure.engine,
-                 failure.failure, failure.attempts, printable(failure.message, 400));
+      text += fmt::format("failed: {}: {}: {} ({} attempts): {}\n", printable(failure.cell),
+                          failure.engine, failure.failure, failure.attempts,
+                          printable(failure.message, 400));
     std::vector<std::string> counts;
     const records::StatusCounts& of = status.status;
     for (const auto& [name, count] : {std::pair("failed", of.failed),
@@ -92,8 +96,9 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
                                       {"unchecked", of.unchecked},
                                       {"pass", of.pass}})
       if (count > 0) counts.push_back(fmt::format("{} {}", count, name));
-    fmt::print("{} cells: {}{}\n", status.cells, fmt::join(counts, ", "),
-               status.at_work ? "; a farm is at work in its cache" : "");
+    text += fmt::format("{} cells: {}{}\n", status.cells, fmt::join(counts, ", "),
+                        status.at_work ? "; a farm is at work in its cache" : "");
+    fmt::print("{}", with_colours(text));
     if (!status.cache_is_there) tell_of_lost_cache(status.cache);
     fmt::print("{}", cluster_text(options->directory));
   });
@@ -105,14 +110,13 @@ void add_farm_verify(CLI::App& farm, ExitCode& exit_code) {
                  "A farm's directory, or a cache");
   command->add_flag("--remove", options->remove,
                     "Take away what is damaged; the next farm makes it again");
-  command->add_flag("-q,--quiet", options->quiet, "No progress");
   command->footer(
       "Of a farm's directory also the files under cells/, by the hashes in the cells' records, and whether the\n"
       "cache has every result that they name.\n\n"
       "Exit codes: 0 all is whole, or what was damaged has been taken away; 1 something is damaged or missing,\n"
       "3 no farm and no cache, 4 with --remove while a farm is at work.");
   command->callback([options = options, &exit_code] {
-    ProgressLine line(!options->quiet);
+    ProgressLine line;
     const auto show = [&](std::size_t done, std::size_t all) {
       line.show(double(done) / double(all), fmt::format("{}/{}", done, all));
     };
@@ -217,17 +221,18 @@ void add_farm_explain(CLI::App& farm, ExitCode& exit_code) {
   command->add_option("CELL", options->cell, "The cell's id, as in DIR/cells")->required();
   command->add_option("JOB", options->job, "One of its jobs: render, reference-povray, profile...");
   options->programs.add_to(*command);
-  command->add_flag("--json", options->json, "As a record (kind farm-explanation, docs/reference)");
+  OptionGroup group(*command);
+  add_json(group, options->json, "farm-explanation");
   command->footer(
       "Hashes are shown by their beginning; --json has all of them. Exit codes: 0 all results are in the\n"
       "cache, and nothing has changed on this machine, 1 something has, 3 no such farm, cell or job.\n\n"
       "Example: lobelia farm explain out/gallery phong_rdf-n16 reference-povray");
   command->callback([options = options, &exit_code] {
+    OutputFiles().writes_report(options->json);
     const records::FarmExplanation explanation =
         explain_cell(options->directory, options->cell, options->job, options->programs.given());
-    if (options->json) {
-      fmt::print("{}", record_text(explanation));
-    } else {
+    write_reports("", {{options->json, record_text(explanation)}});
+    if (options->json != kStdout) {
       for (const auto& job : explanation.jobs) print_job(job);
       for (const auto& text : explanation.without)
         fmt::print("no result: {}\n", printable(text, 2000));

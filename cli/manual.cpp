@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/manual_tables.hpp"
 #include "cli/options.hpp"
 #include "core/files.hpp"
@@ -9,17 +10,29 @@ namespace lobelia::cli {
 namespace {
 
 /// Where programs look for them, below /usr/share, /usr/local/share or ~/.local/share.
-void write_manual(const CLI::App& program, const std::filesystem::path& share) {
-  const std::vector<CommandRow> commands = command_rows(program);
-  const auto write = [&](const std::string& file, const std::string& text) {
-    make_directories((share / file).parent_path());
-    write_file(share / file, text);
-  };
+Files manual(const std::vector<CommandRow>& commands) {
+  Files files;
   for (const CommandRow& command : commands)
-    write(fmt::format("man/man1/{}.1", man_name(command)), man_page(command, commands));
-  write("bash-completion/completions/lobelia", bash_completion(commands));
-  write("zsh/site-functions/_lobelia", zsh_completion(commands));
-  write("fish/vendor_completions.d/lobelia.fish", fish_completion(commands));
+    files[fmt::format("man/man1/{}.1", man_name(command))] = man_page(command, commands);
+  files["bash-completion/completions/lobelia"] = bash_completion(commands);
+  files["zsh/site-functions/_lobelia"] = zsh_completion(commands);
+  files["fish/vendor_completions.d/lobelia.fish"] = fish_completion(commands);
+  return files;
+}
+
+/// As they lie in docs/.
+Files documentation(const std::vector<CommandRow>& commands) {
+  Files files = models_documentation();
+  files["command_line.md"] = command_line_page(commands);
+  files["environment.md"] = environment_page();
+  return files;
+}
+
+void write(const Files& files, const std::filesystem::path& directory) {
+  for (const auto& [file, text] : files) {
+    make_directories((directory / file).parent_path());
+    write_file(directory / file, text);
+  }
 }
 
 }  // namespace
@@ -27,13 +40,20 @@ void write_manual(const CLI::App& program, const std::filesystem::path& share) {
 void add_manual(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "manual", "Write man pages, and completions for bash, zsh and fish, into a directory");
-  auto share = std::make_shared<std::string>();
-  OptionGroup(*command)
-      .add("-o,--output", *share, "DIR",
-           "Directory such as ~/.local/share; existing files are replaced")
-      ->required();
+  auto share = std::make_shared<std::string>(), docs = std::make_shared<std::string>();
+  OptionGroup group(*command);
+  auto* output = add_common(group, "--output", *share,
+                            ": such as ~/.local/share; existing files are replaced", "DIR");
+  auto* pages =
+      group.add("--docs", *docs, "DIR",
+                "Write the generated pages of docs/ into DIR: command line, environment, models");
   command->footer("Example: lobelia manual -o ~/.local/share");
-  command->callback([&app, share] { write_manual(app, *share); });
+  command->callback([&app, share, docs, output, pages] {
+    if (output->count() + pages->count() == 0) throw CLI::RequiredError("--output");
+    const std::vector<CommandRow> commands = command_rows(app);
+    if (!share->empty()) write(manual(commands), *share);
+    if (!docs->empty()) write(documentation(commands), *docs);
+  });
 }
 
 }  // namespace lobelia::cli

@@ -58,6 +58,11 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
+std::string upper_case(std::string text) {
+  for (char& c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
 std::string synopsis(const CommandRow& command) {
   std::string text = fmt::format(".B {}", roff("lobelia"));
   if (!command.path.empty()) text += " " + roff(command.path);
@@ -94,13 +99,12 @@ std::string item(const OptionRow& option) {
 
 std::string man_page(const CommandRow& command, const std::vector<CommandRow>& all) {
   const std::string name = man_name(command);
-  std::string upper = name;
-  for (char& c : upper) c = char(std::toupper(static_cast<unsigned char>(c)));
   // No date: the same source gives the same page.
   std::string page = fmt::format(
       ".\\\" Made by `lobelia manual` from the options of the command line.\n"
       ".TH {} 1 \"\" \"{}\" \"User Commands\"\n.ad l\n.nh\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}",
-      roff(upper), kNameAndVersion, roff(name), roff(in_one_line(command.help)), synopsis(command));
+      roff(upper_case(name)), kNameAndVersion, roff(name), roff(in_one_line(command.help)),
+      synopsis(command));
   std::string heading;
   bool has_arguments = false;
   for (const OptionRow& option : command.options) {
@@ -114,9 +118,7 @@ std::string man_page(const CommandRow& command, const std::vector<CommandRow>& a
     if (!option.names.empty() && std::ranges::count(headings, option.heading) == 0)
       headings.push_back(option.heading);
   for (const std::string& one : headings) {
-    std::string title = one;
-    for (char& c : title) c = char(std::toupper(static_cast<unsigned char>(c)));
-    page += fmt::format(".SH \"{}\"\n", roff(title));
+    page += fmt::format(".SH \"{}\"\n", roff(upper_case(one)));
     for (const OptionRow& option : command.options)
       if (!option.names.empty() && option.heading == one) page += item(option);
   }
@@ -129,7 +131,12 @@ std::string man_page(const CommandRow& command, const std::vector<CommandRow>& a
                             roff(in_one_line(other.help)));
   if (!command.footer.empty())
     page += fmt::format(".SH NOTES\n.nf\n{}\n.fi\n", roff(command.footer));
-  if (!command.path.empty()) page += ".SH \"SEE ALSO\"\n.BR lobelia (1)\n";
+  if (!command.path.empty()) return page + ".SH \"SEE ALSO\"\n.BR lobelia (1)\n";
+  for (const FactTable& table : fact_tables()) {
+    page += fmt::format(".SH \"{}\"\n{}\n", upper_case(table.title), roff(table.remark));
+    for (const Fact& fact : table.facts)
+      page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(fact.name), roff(fact.meaning));
+  }
   return page;
 }
 

@@ -1,9 +1,12 @@
-// The commands and options as CLI11 has them, for man pages and completions: there is no second list.
+// The commands and options as CLI11 has them, for man pages, completions and docs/: there is no second list.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lobelia::cli {
@@ -37,6 +40,31 @@ std::string man_page(const CommandRow& command, const std::vector<CommandRow>& a
 std::string bash_completion(const std::vector<CommandRow>& all);
 std::string zsh_completion(const std::vector<CommandRow>& all);
 std::string fish_completion(const std::vector<CommandRow>& all);
+
+/// A row of a table that people look up, such as an exit code.
+struct Fact {
+  std::string name, meaning;  ///< several names are separated by ", "
+};
+struct FactTable {
+  std::string title, heading, remark;
+  std::vector<Fact> facts;
+};
+/// Exit codes, environment variables and files.
+std::span<const FactTable> fact_tables();
+
+/// Files by their path.
+using Files = std::map<std::string, std::string>;
+
+/// Pages of docs/.
+std::string command_line_page(const std::vector<CommandRow>& commands);
+std::string environment_page();
+/// models.md and its charts.
+Files models_documentation();
+
+/// Text for a page of docs/, with links to other pages.
+std::string markdown(std::string_view text);
+/// "(n + 1) / (2 pi)" as LaTeX. Empty if it is no formula.
+std::string latex(std::string_view formula);
 
 /// "lobelia-farm-status"
 std::string man_name(const CommandRow& command);

@@ -1,12 +1,16 @@
 #include "cli/messages.hpp"
 
+#include <fmt/color.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <regex>
 #include <set>
 
+#include "cli/common_options.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -14,6 +18,8 @@ namespace lobelia::cli {
 namespace {
 
 constexpr int kBarWidth = 24;
+
+std::string g_colours = "auto";
 
 std::size_t terminal_width() {
   winsize size{};
@@ -30,6 +36,35 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
+void choose_colours(const std::string& choice) { g_colours = choice; }
+
+bool stdout_has_colours() {
+  const char* no = std::getenv("NO_COLOR");
+  return g_colours == "always" ||
+         (g_colours == "auto" && ::isatty(STDOUT_FILENO) == 1 && !(no && *no));
+}
+
+std::string with_colours(const std::string& text) {
+  if (!stdout_has_colours()) return text;
+  // A verdict stands behind a colon or a count, or begins a line.
+  static const std::regex verdicts(
+      "(^|\\n|: |\\b[1-9][0-9]* )(pass|confirmed|failed|differs?|damaged|missing|outside|not "
+      "reproduced|undecided|not compared)\\b");
+  static const std::regex good("pass|confirmed"), open("undecided|not compared");
+  std::string painted;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator it(text.begin(), text.end(), verdicts), end; it != end; ++it) {
+    const std::string word = (*it)[2];
+    const auto colour = std::regex_match(word, good)   ? fmt::terminal_color::green
+                        : std::regex_match(word, open) ? fmt::terminal_color::yellow
+                                                       : fmt::terminal_color::red;
+    painted.append(rest, (*it)[2].first);
+    painted += fmt::format(fmt::fg(colour), "{}", word);
+    rest = (*it)[2].second;
+  }
+  return painted.append(rest, text.cend());
+}
+
 void warn(std::string_view text) { say("lobelia: warning: {}\n", printable(text, 2000)); }
 
 void warn_of(const Scene& scene) {
@@ -44,7 +79,7 @@ void warn_of(const Highlight& highlight) {
   if (const std::string line = warning(highlight); !line.empty()) warn(line);
 }
 
-ProgressLine::ProgressLine(bool enabled) : enabled_(enabled), terminal_(::isatty(2) == 1) {}
+ProgressLine::ProgressLine() : enabled_(!verbosity().quiet), terminal_(::isatty(2) == 1) {}
 
 void ProgressLine::show(double fraction, std::string_view what) {
   if (!enabled_) return;

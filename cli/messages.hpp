@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <string>
 #include <string_view>
 
 #include "core/standard_streams.hpp"
@@ -12,14 +13,20 @@ namespace lobelia::cli {
 
 void warn(std::string_view text);
 
+/// --color auto, always or never for stdout. Auto colours on a terminal, unless $NO_COLOR is set (no-color.org).
+void choose_colours(const std::string& choice);
+bool stdout_has_colours();
+/// With verdicts and counts of them ("2 failed") in colour, if stdout has colours: red, yellow or green.
+std::string with_colours(const std::string& text);
+
 /// Warns of each highlight and remark of a scene that is allowed and yet unusual, once.
 void warn_of(const Scene& scene);
 void warn_of(const Highlight& highlight);
 
 class ProgressLine {
  public:
-  /// Draws nothing unless `enabled`; where stderr is not a terminal, a plain line every 10 seconds.
-  explicit ProgressLine(bool enabled);
+  /// Draws nothing with --quiet; where stderr is not a terminal, a plain line every 10 seconds.
+  ProgressLine();
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

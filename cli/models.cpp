@@ -1,12 +1,16 @@
+#include <map>
 #include <numbers>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/catalogue_record.hpp"
 #include "renderer/scene/scene_format.hpp"
+#include "shaders/export.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -86,18 +90,51 @@ void print_measured(double exponent, std::span<const LobeId> lobes) {
       "reciprocity holds.\n");
 }
 
+/// Tables with the text of every highlight. Texts share most of their paragraphs, so each stands there once.
+records::HighlightTables tables_with_shaders(std::span<const double> exponents) {
+  records::HighlightTables tables = highlight_tables(exponents);
+  std::map<std::string, std::int64_t> known;
+  const auto parts_of = [&](ModelId model, LobeId lobe, Normalisation normalisation) {
+    std::vector<std::int64_t> parts;
+    ShaderExport request;
+    request.language = *find_shader_language("glsl");
+    request.models = {model};
+    request.lobe = lobe;
+    request.normalisation = normalisation;
+    request.coefficient = CoefficientFrom::kArgument;
+    const std::string text = shader_text(request);
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+      const std::size_t blank = std::min(text.find("\n\n", begin), text.find("\n//\n", begin));
+      end = blank == text.npos ? text.size() : text.find('\n', blank + 1) + 1;
+      const std::string part = text.substr(begin, end - begin);
+      const auto [at, is_new] = known.try_emplace(part, std::int64_t(known.size()));
+      if (is_new) tables.shader_parts.push_back(part);
+      parts.push_back(at->second);
+    }
+    return parts;
+  };
+  for (records::HighlightTable& one : tables.highlights) {
+    const ModelId model = *find_model(one.model);
+    const LobeId lobe = *find_lobe(one.lobe);
+    one.shader = parts_of(model, lobe, Normalisation::kExact);
+    if (has_paper_coefficient(lobe))
+      one.paper_shader = parts_of(model, lobe, Normalisation::kPaper);
+  }
+  return tables;
+}
+
 struct ModelsArguments {
-  bool json = false;
   double exponent = 64;
   LobeOption lobe;
-  std::string tables;
+  std::string json, tables;
+  WorkLimits limits;
 };
 
 void run_models(const ModelsArguments& options, bool has_exponent) {
   if (!options.tables.empty()) {
     require_writable(options.tables);
-    write_record(options.tables, highlight_tables(has_exponent ? std::vector{options.exponent}
-                                                               : table_exponents()));
+    write_record(options.tables, tables_with_shaders(has_exponent ? std::vector{options.exponent}
+                                                                  : table_exponents()));
     return;
   }
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
@@ -105,10 +142,11 @@ void run_models(const ModelsArguments& options, bool has_exponent) {
     require_lobe({{}, *one, {}, options.exponent});
     lobes = {*one};
   }
-  if (options.json) {
-    fmt::print("{}", record_text(catalogue_record(options.exponent, lobes)));
-    return;
-  }
+  OutputFiles().writes_report(options.json);
+  std::string record;
+  if (!options.json.empty()) record = record_text(catalogue_record(options.exponent, lobes));
+  write_reports("", {{options.json, record}});
+  if (options.json == kStdout) return;
   print_catalogues(lobes);
   print_costs(lobes);
   print_measured(options.exponent, lobes);
@@ -118,10 +156,10 @@ void run_models(const ModelsArguments& options, bool has_exponent) {
 
 void add_models(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
-      "models", "List models, lobes and normalisations: formulas, cost, what was measured of them");
+      "models", "List models, lobes and normalisations: formulas, costs and measurements");
   auto options = std::make_shared<ModelsArguments>();
   OptionGroup group(*command);
-  auto* json = group.add_flag("--json", options->json, "Print the catalogue as JSON");
+  auto* json = add_json(group, options->json, "models");
   auto* exponent = group.add_number("--exponent", options->exponent, kMinExponent, kMaxExponent,
                                     "Exponent n at which to measure");
   options->lobe.add_to(group);
@@ -131,10 +169,11 @@ void add_models(CLI::App& app, ExitCode&) {
           "Write curves and albedos of every highlight over the exponent (kind highlight-tables) to "
           "FILE instead; with --exponent, which is at least 1 then, at that one alone")
       ->excludes(json);
+  options->limits.add_to(group);
   command->callback([options, exponent] {
     if (!options->tables.empty() && options->exponent < 1)
       throw CLI::ValidationError("--exponent", "with --tables it is at least 1");
-    run_models(*options, exponent->count() > 0);
+    options->limits.run([&] { run_models(*options, exponent->count() > 0); });
   });
 }
 

@@ -1,6 +1,7 @@
 #include "cli/options.hpp"
 
 #include <algorithm>
+#include "cli/common_options.hpp"
 
 #include "core/contained_reader.hpp"
 #include "core/files.hpp"
@@ -27,7 +28,11 @@ void replace(const std::optional<Number>& value, std::string_view option, double
 
 CLI::Validator not_empty() {
   return {[](const std::string& text) {
-            return std::string(text.empty() ? "a name is expected, and it is empty" : "");
+            if (text.empty()) return std::string("a name is expected, and it is empty");
+            // As in '--html -q'. A file of such a name is ./-q.
+            if (text.size() > 1 && text[0] == '-')
+              return fmt::format("a name is expected, and '{}' is an option", printable(text));
+            return std::string();
           },
           ""};
 }
@@ -36,8 +41,9 @@ CLI::Validator between(double min, double max) {
   return {[=](std::string& text) {
             double value = 0;
             if (parse_number(text, value) && value >= min && value <= max) return std::string();
-            return fmt::format("'{}' is out of range; allowed: {:g} to {:g}", printable(text), min,
-                               max);
+            const bool is_number = parse_number(text, value) || text == "nan";
+            return fmt::format("'{}' is {}; allowed: {:g} to {:g}", printable(text),
+                               is_number ? "out of range" : "not a number", min, max);
           },
           fmt::format("{:g} to {:g}", min, max)};
 }
@@ -133,8 +139,8 @@ void SceneOverrides::add_to(CLI::App& command) {
             fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent));
   group.add("--width", width_, "", "Width of the picture in pixels");
   group.add("--height", height_, "", "Height of the picture in pixels");
-  group.add("--samples", samples_, "", "Rays a pixel; 1 is the pixel's centre");
-  group.add("--seed", seed_, "", "Chooses the positions of more than one sample");
+  add_common(group, "--samples", samples_);
+  add_common(group, "--seed", seed_, ": the positions of samples and points");
 }
 
 void SceneOverrides::apply(Scene& scene) const {
@@ -154,10 +160,9 @@ void SceneOverrides::apply(Scene& scene) const {
   }
   replace(width_, "--width", 1, kMaxImageSide, scene.film.width);
   replace(height_, "--height", 1, kMaxImageSide, scene.film.height);
-  if (std::int64_t{scene.film.width} * scene.film.height > kMaxImagePixels)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} x {} pixels are too many; allowed: {} in all", scene.film.width,
-                            scene.film.height, kMaxImagePixels));
+  if (std::int64_t{scene.film.width} * scene.film.height > kMaxFilmPixels)
+    throw Error(ExitCode::kUsage, fmt::format("{} x {} pixels are too many; allowed: {} in all",
+                                              scene.film.width, scene.film.height, kMaxFilmPixels));
   replace(samples_, "--samples", 1, 65536, scene.sampler.sample_count);
   replace(seed_, "--seed", 0, 0x1p53, scene.sampler.seed);  // what a scene file can hold
 }

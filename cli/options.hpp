@@ -21,7 +21,7 @@ namespace lobelia::cli {
 
 /// Checks that an option's number lies in a range. CLI::Range accepts a NaN.
 CLI::Validator between(double min, double max);
-/// Refuses an empty text, which a script gives whose variable is not set.
+/// Refuses an empty text, which a script gives whose variable is not set, and an option in place of a name.
 CLI::Validator not_empty();
 
 /// Adds options under one heading of a command's help.
@@ -35,7 +35,8 @@ class OptionGroup {
   CLI::Option* add(const std::string& name, T& value, const std::string& type,
                    const std::string& help) {
     CLI::Option* const option = command_.add_option(name, value, help)->group(heading_);
-    if (type.starts_with("FILE") || type.starts_with("DIR")) option->check(not_empty());
+    if (type.starts_with("FILE") || type.starts_with("DIR") || type.find(".") != type.npos)
+      option->check(not_empty());
     return type.empty() ? option : option->type_name(type);
   }
   /// A number from `min` to `max`. The help shows its default.
@@ -106,6 +107,8 @@ class SceneOverrides {
   void add_to(CLI::App& command);
   /// Changes every material of the scene. Throws Error(kUsage) naming the value and what is allowed.
   void apply(Scene& scene) const;
+  /// --seed, if it is given.
+  std::optional<std::uint64_t> seed() const { return seed_; }
 
  private:
   std::optional<std::string> model_, normalisation_;

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "cli/messages.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 
@@ -41,9 +42,13 @@ void OutputFiles::writes_report(const std::string& path) {
   require_writable(path);
 }
 
-void write_reports(std::string table,
-                   std::initializer_list<std::pair<std::string, std::string>> reports) {
+void write_reports(std::string table, Reports reports) {
   FilesTogether files;
+  write_reports(std::move(table), reports, files);
+}
+
+void write_reports(std::string table, Reports reports, FilesTogether& files) {
+  table = with_colours(table);
   for (const auto& [path, text] : reports)
     if (path == kStdout)
       table = text;

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/files.hpp"
+
 namespace lobelia::cli {
 
 /// A report's file: to stdout, in place of the table.
@@ -29,8 +31,12 @@ class OutputFiles {
   std::set<std::filesystem::path> written_;
 };
 
-/// Reports' paths and texts: to their files, all or none. Prints `table`, or in its place the report that goes to stdout.
-void write_reports(std::string table,
-                   std::initializer_list<std::pair<std::string, std::string>> reports);
+/// Paths and texts.
+using Reports = std::initializer_list<std::pair<std::string, std::string>>;
+
+/// Writes the reports to their files, all or none. Prints `table`, or in its place the report that goes to stdout.
+void write_reports(std::string table, Reports reports);
+/// Also commits the `files` that the command has written before.
+void write_reports(std::string table, Reports reports, FilesTogether& files);
 
 }  // namespace lobelia::cli

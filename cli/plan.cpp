@@ -1,6 +1,8 @@
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "records/record.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -9,31 +11,19 @@ namespace lobelia::cli {
 namespace {
 
 struct PlanArguments {
-  std::string scene;
-  bool json = false;
+  std::string scene, json;
   SceneOverrides overrides;
 };
 
 void run_plan(const PlanArguments& options) {
+  OutputFiles outputs;
+  outputs.reads(options.scene);
+  outputs.writes_report(options.json);
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
   warn_of(scene);
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
-  if (options.json) {
-    fmt::print("{}", record_text(plan_record(plan)));
-    return;
-  }
-  for (const auto& effect : plan.effects)
-    fmt::print("{:<15}{:<4}{}\n", effect.name, effect.on ? "on" : "off", effect.reason);
-  fmt::print("{:<19}{}\n{:<19}{}\n", "precision", plan.precision_reason, "kernel", plan.kernel);
-  const auto print = [](const char* kind, const char* at_most, std::uint64_t rays) {
-    fmt::print("{:<19}{}{}\n", kind, rays > 0 ? at_most : "", rays);
-  };
-  print("camera rays", plan.first_samples < scene.sampler.sample_count ? "at most " : "",
-        plan.camera_rays);
-  print("shadow rays", "at most ", plan.max_shadow_rays);
-  print("mirror rays", "at most ", plan.max_mirror_rays);
-  print("scattered rays", "at most ", plan.max_scattered_rays);
+  write_reports(plan_text(plan, scene), {{options.json, record_text(plan_record(plan))}});
 }
 
 }  // namespace
@@ -42,7 +32,8 @@ void add_plan(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand("plan", "Say which effects a scene calls for, and why");
   auto options = std::make_shared<PlanArguments>();
   command->add_option("SCENE", options->scene, "Scene file")->required();
-  command->add_flag("--json", options->json, "Print the plan as JSON");
+  OptionGroup group(*command);
+  add_json(group, options->json, "plan");
   options->overrides.add_to(*command);
   command->footer("Example: lobelia plan reference_scenes/scenes/two_spheres.xml");
   command->callback([options] { run_plan(*options); });

@@ -3,10 +3,12 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
 #include "cli/profile_report.hpp"
 #include "compare/profile/blob.hpp"
+#include "compare/profile/measure_noise.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/image_io.hpp"
 #include "farm/profile_scene.hpp"
@@ -20,7 +22,6 @@ namespace {
 struct NoiseOfPicture {
   std::string error;
   std::vector<std::string> replicates;
-  double freedom = 15;  ///< as `lobelia reference --standard-error` has it
 
   void add_to(OptionGroup& group, const std::string& prefix, const std::string& picture) {
     auto* more = group.add(
@@ -45,19 +46,11 @@ struct NoiseOfPicture {
       return picture;
     };
     // The pixels of a renderer's picture share their sample points.
-    if (!error.empty()) return noise_of_standard_errors(beside(error), freedom, true);
+    if (!error.empty()) return noise_of_standard_errors(beside(error), kFreedomOfErrors, true);
     if (replicates.empty()) return std::nullopt;
-    std::vector<Image> pictures, grey;
-    for (const std::string& replicate : replicates) pictures.push_back(beside(replicate));
-    pictures.push_back(std::move(image));
-    // The error of the mean of the channels: whether these share their noise shows in the pictures.
-    for (const Image& picture : pictures) {
-      Image& one = grey.emplace_back(picture.width(), picture.height());
-      for (std::size_t i = 0; i < picture.pixel_count(); ++i)
-        std::ranges::fill(one.values().subspan(3 * i, 3), float(radiance_at(picture, i)));
-    }
-    image = mean_of_replicates(pictures, false).image;
-    return mean_of_replicates(grey, false).noise;
+    std::vector<Image> others;
+    for (const std::string& replicate : replicates) others.push_back(beside(replicate));
+    return noise_of_replicates(image, std::move(others));
   }
 };
 
@@ -106,6 +99,7 @@ struct ProfileArguments {
   std::string at, region;
   double least_share = kLeastShare;
   NoiseOfPicture noise_a, noise_b;
+  WorkLimits limits;
 };
 
 /// The pictures' file names, or "a" and "b" where those are equal or stand for a column of ours.
@@ -247,15 +241,15 @@ void add_profile(CLI::App& app, ExitCode&) {
   for (std::size_t i = of_b; i < command->get_options().size(); ++i)
     command->get_options()[i]->needs(second);
   OptionGroup output(*command, "Output");
-  output.add("--json", options->json, "FILE|-",
-             "Write the record to FILE; with - to stdout, and no table (kind profile of one chosen "
-             "highlight, profiles of all; without a scene blob and blobs)");
+  add_json(output, options->json,
+           "profile of one chosen highlight, profiles of all; without a scene blob and blobs");
   output.add("--csv", options->csv, "FILE|-",
              "Write the curves as a table with a line per angle or offset; with - likewise");
   output.add(
       "--svg", options->svg, "FILE|-",
       "Write the curves as a chart: of one highlight, or without a scene of up to five; with - "
       "likewise");
+  options->limits.add_to(output);
   command->footer(
       "With a scene 'analytic' is its formula at each pixel's centre. The epicentre reaches to where\n"
       "the lobe has fallen to 1/2, the flank to 1/20, the blooming zone to 1/1000. Every family of\n"
@@ -278,7 +272,7 @@ void add_profile(CLI::App& app, ExitCode&) {
       "Exit codes: 0 done, 2 usage, 3 an input is unreadable or does not fit the scene, 4 an "
       "output\n"
       "cannot be written.");
-  command->callback([options] { run_profile(*options); });
+  command->callback([options] { options->limits.run([&] { run_profile(*options); }); });
 }
 
 }  // namespace lobelia::cli

@@ -7,6 +7,8 @@
 #include "compare/metrics/catalogue.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -19,7 +21,8 @@ std::vector<gallery::MapKind> gallery_maps() {
                      [&map](const Image& a, const Image& b, const gallery::MapViewing& viewing) {
                        return measure_difference_map(
                            map, a, b, {viewing.exposure_stops, viewing.pixels_per_degree});
-                     }});
+                     },
+                     map.scale == MapScale::kOne ? 1.0 : 10.0});
   }
   return kinds;
 }
@@ -46,6 +49,13 @@ std::vector<gallery::MetricInfo> metric_infos() {
   return infos;
 }
 
+std::vector<std::uint8_t> surface_of(const std::filesystem::path& file, int width, int height) {
+  Scene scene = read_scene(file);
+  scene.film.width = width;
+  scene.film.height = height;
+  return truth::surface_mask(scene);
+}
+
 }  // namespace
 
 gallery::GalleryOptions gallery_options() {
@@ -53,16 +63,18 @@ gallery::GalleryOptions gallery_options() {
   options.maps = gallery_maps();
   options.metrics = metric_infos();
   options.region = [](const Image& a, const Image& b) { return highlight_region(a, b, {}); };
+  options.surface = surface_of;
   return options;
 }
 
-gallery::PublishedGallery publish(const std::filesystem::path& run,
-                                  gallery::GalleryOptions options) {
+gallery::PublishedGallery publish(const std::filesystem::path& run, gallery::GalleryOptions options,
+                                  WriteSite& write) {
   gallery::GalleryOptions known = gallery_options();
   options.maps = std::move(known.maps);
   options.metrics = std::move(known.metrics);
   options.region = std::move(known.region);
-  gallery::PublishedGallery made = write_gallery(run, options);
+  options.surface = std::move(known.surface);
+  gallery::PublishedGallery made = write(run, options);
   constexpr std::size_t kMostNamed = 20;
   const std::size_t count = made.doubts.size();
   for (std::size_t i = 0; i < std::min(count, kMostNamed); ++i)
@@ -71,6 +83,14 @@ gallery::PublishedGallery publish(const std::filesystem::path& run,
     say("lobelia: gallery: {} of {} cells {} not what the farm wrote{}\n", count, made.cells,
         count == 1 ? "is" : "are",
         count > kMostNamed ? fmt::format("; {} are named here", kMostNamed) : "");
+  constexpr std::size_t kMostWorse = 3;
+  std::string worse;
+  for (std::size_t i = 0; i < std::min(made.worse.size(), kMostWorse); ++i)
+    worse += (i > 0 ? "; " : "") + printable(made.worse[i], 200);
+  if (!made.worse.empty())
+    say("lobelia: gallery: {} of {} cells {} worse than in the baseline: {}{}\n", made.worse.size(),
+        made.cells, made.worse.size() == 1 ? "is" : "are", worse,
+        made.worse.size() > kMostWorse ? "; …" : "");
   return made;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "records/catalogue.hpp"
@@ -56,8 +57,9 @@ void add_records(CLI::App& app, ExitCode&) {
       "List the kinds of records; print the JSON Schema of one, or write all reference pages");
   auto options = std::make_shared<RecordsArguments>();
   auto* kind = command->add_option("KIND", options->kind, "Print the JSON Schema of this kind");
-  auto* output = command->add_option("-o,--output", options->output,
-                                     "Write a page and a schema of every kind into this directory");
+  OptionGroup group(*command);
+  auto* output =
+      add_common(group, "--output", options->output, ": a page and a schema of every kind", "DIR");
   command->add_flag("--typescript", options->typescript, "Print the types of the gallery's scripts")
       ->excludes(kind)
       ->excludes(output);

@@ -1,6 +1,7 @@
 #include <ranges>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "core/files.hpp"
@@ -18,7 +19,6 @@ struct ReferenceArguments {
   std::string precision, shading{kShadingNames[0]};
   double time_limit = 600;
   ReferenceOptions reference;
-  bool quiet = false;
   EnginePrograms programs;
   SceneOverrides overrides;
 };
@@ -35,6 +35,7 @@ ReferenceOptions reference_options(const EngineInfo& engine, const ReferenceArgu
     reference.fine = chosen_place(options.precision, fmt::format("--precision of {}", engine.name),
                                   precisions(engine)) == 1;
   reference.shading = Shading(chosen_place(options.shading, "--shading", kShadingNames));
+  reference.seed = options.overrides.seed().value_or(reference.seed);
   reference.time_limit = std::chrono::duration<double>(options.time_limit);
   return reference;
 }
@@ -55,7 +56,7 @@ void run_reference(const ReferenceArguments& options) {
     keep_engine_input(options.engine, scene, reference, options.keep_input);
 
   const EngineInfo& engine_info = engine->info();
-  ProgressLine progress(!options.quiet);
+  ProgressLine progress;
   progress.show(0, fmt::format("{} at work", engine_info.title));
   ReferenceResult result = Session(*engine, reference).render(scene);
   progress.clear();
@@ -82,7 +83,7 @@ void run_reference(const ReferenceArguments& options) {
     record.highlights.push_back(highlight_record(material.highlight));
   write_record(record_path, record);
   files.commit();
-  if (!options.quiet)
+  if (!verbosity().quiet)
     say("{}: {} x {}, {:.3f} s, {} {}, {}\n", printable_path(options.output), result.image.width(),
         result.image.height(), record.seconds.total, engine_info.title, engine->status().version,
         record.shading);
@@ -109,7 +110,7 @@ std::string engine_words() {
 
 void add_reference(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
-      "reference", "Render a scene with an engine that is not ours, to the same kind of EXR");
+      "reference", "Render a reference with POV-Ray, Blender, another engine or the formulas");
   auto options = std::make_shared<ReferenceArguments>();
   OptionGroup group(*command);
   ReferenceOptions& reference = options->reference;
@@ -120,13 +121,13 @@ void add_reference(CLI::App& app, ExitCode&) {
           fmt::format("Who renders: {}",
                       fmt::join(engine_infos() | std::views::transform(&EngineInfo::name), " or ")))
       ->required();
-  group
-      .add("-o,--output", options->output, "OUT.exr",
-           "Picture to write, OUT.exr; its record goes to OUT.json")
+  add_common(group, "--output", options->output, ": the picture; its record goes to OUT.json",
+             "OUT.exr")
       ->required();
   options->programs.add_to(*command);
-  group.add_number("--time-limit", options->time_limit, 0.1, 1e6,
-                   "Seconds after which the engine is stopped");
+  add_common(group, "--time-limit", options->time_limit, ": the engine has failed then")
+      ->check(between(0.1, 1e6))
+      ->capture_default_str();
   group.add_number(
       "--points", reference.points, kReplicates, 1 << 20,
       "Points of each light with a size, of the lens and of the pixel; a multiple of 16");
@@ -134,19 +135,17 @@ void add_reference(CLI::App& app, ExitCode&) {
       "--precision", options->precision, "",
       fmt::format("Number format of the engine: {}; the first if not given", precision_list()));
   group
-      .add("--shading,--witness", options->shading, "",
+      .add("--shading", options->shading, "",
            "Who shades a highlight: the engine itself (native), our formula in the engine's "
            "language (expressed), or whichever is usual (any)")
       ->capture_default_str();
   group.add(
       "--standard-error", options->standard_error, "ERROR.exr",
       "Picture of the error of each value where lights with a size, lens or pixel are averaged");
-  group.add_number("--point-seed", reference.seed, 0, 1 << 30, "Chooses those points");
-  group.add_number("--threads", reference.threads, 0, 1024, "Threads; 0 is all processors");
+  add_common(group, "--threads", reference.threads)->check(between(0, 1024))->capture_default_str();
   group.add("--log-dir", options->log_directory, "", "Directory for the engine's own output");
   group.add("--keep-input", options->keep_input, "",
             "Directory for what the engine is given, with the command that renders it");
-  group.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
       engine_words() +

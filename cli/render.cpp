@@ -1,17 +1,22 @@
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "accuracy/accuracy.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "core/colour.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/png_writer.hpp"
 #include "core/timing.hpp"
 #include "records/record.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
+#include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::cli {
@@ -22,7 +27,6 @@ struct RenderArguments {
   std::string effects = "as-called-for", precision = "sufficient", accuracy_check = "truth";
   double exposure = 0;
   RenderOptions render;
-  bool quiet = false;
   SceneOverrides overrides;
 };
 
@@ -36,30 +40,42 @@ void require_output(std::string_view option, const std::filesystem::path& path,
   require_writable(path);
 }
 
+/// Throws before long work if the option is given and the picture is too large for it.
+void require_whole_picture(const Film& film, std::string_view option, std::string_view value) {
+  const std::string problem = whole_picture_problem(film);
+  if (!value.empty() && !problem.empty())
+    throw Error(ExitCode::kUsage, fmt::format("{}: {}", option, problem));
+}
+
 /// Seconds of the stages around rendering. Packing rows is part of rendering; in a large picture it runs while other
 /// rows are rendered.
 struct Stages {
   double read = 0, pack = 0, write = 0;
 };
 
-/// Packs and writes rows while the next ones are rendered. Keeps the whole picture in memory if a PNG or a measurement of
-/// its accuracy needs it.
+/// Packs and writes rows while the next ones are rendered. Keeps them in memory only if a measurement of the picture's
+/// accuracy needs them.
 RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
                               const RenderArguments& options, Stages& stages) {
-  const bool checked = !options.accuracy.empty() && options.accuracy_check != "none";
-  if (!options.png.empty() || checked) {
-    RenderResult result = render(scene, how);
-    stages.write = seconds_of([&] {
-      write_exr(options.output, result.image, render_metadata(scene));
-      if (!options.png.empty()) write_png(options.png, to_display(result.image, options.exposure));
-    });
-    return result;
-  }
-  ExrWriter writer(options.output, scene.film.width, scene.film.height, render_metadata(scene));
+  const int width = scene.film.width, height = scene.film.height;
+  ExrWriter exr(options.output, width, height, render_metadata(scene));
+  std::optional<PngWriter> png;
+  if (!options.png.empty()) png.emplace(options.png, width, height);
+  Image image;
+  if (!options.accuracy.empty() && options.accuracy_check != "none") image = Image(width, height);
   RenderResult result = render(scene, how, [&](int y, int rows, const float* rgb) {
-    stages.pack += seconds_of([&] { writer.write_rows(y, rows, rgb); });
+    const std::span values(rgb, std::size_t{3} * std::size_t(width) * std::size_t(rows));
+    stages.pack += seconds_of([&] {
+      exr.write_rows(y, rows, rgb);
+      if (png) png->write_rows(to_display(values, width, options.exposure));
+    });
+    if (image.pixel_count() > 0) std::ranges::copy(values, image.pixel(0, y).data());
   });
-  stages.write = seconds_of([&] { writer.finish(); });
+  result.image = std::move(image);
+  stages.write = seconds_of([&] {
+    exr.finish();
+    if (png) png->finish();
+  });
   return result;
 }
 
@@ -77,7 +93,7 @@ ExitCode report_accuracy(const Scene& scene, const accuracy::Choice& choice, con
   std::optional<accuracy::Reached> reached;
   if (options.accuracy_check != "none") reached = accuracy::measure_reached(scene, choice, picture);
   record.accuracy = accuracy::accuracy_record(choice, reached);
-  if (!options.quiet)
+  if (!verbosity().quiet)
     say("{}{}", accuracy::choice_text(choice),
         reached ? accuracy::reached_text(choice, *reached) : "");
   return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
@@ -94,8 +110,11 @@ void run_render(const RenderArguments& options, ExitCode& code) {
   require_output("--png", options.png, {options.output, record_path});
   require_output("--standard-error", options.standard_error, {options.output, options.png});
 
+  require_whole_picture(scene.film, "--standard-error", options.standard_error);
+  require_whole_picture(scene.film, "--accuracy", options.accuracy);
+
   warn_of(scene);
-  ProgressLine progress(!options.quiet);
+  ProgressLine progress;
   RenderOptions render_options = options.render;
   render_options.effects =
       options.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
@@ -126,7 +145,8 @@ void run_render(const RenderArguments& options, ExitCode& code) {
   if (choice) code = report_accuracy(scene, *choice, result.image, options, record);
   write_record(record_path, record);
   files.commit();
-  if (!options.quiet)
+  if (verbosity().verbose) say("{}", plan_text(result.plan, rendered));
+  if (!verbosity().quiet)
     say("{}: {} x {}, {:.3f} s, {}{}{}{}\n", printable_path(options.output), scene.film.width,
         scene.film.height, result.render_seconds, result.instruction_set,
         result.error ? fmt::format(", error {:.2g}", *result.error) : "",
@@ -140,14 +160,15 @@ void add_render(CLI::App& app, ExitCode& code) {
   auto options = std::make_shared<RenderArguments>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
   OptionGroup group(*command);
-  group
-      .add("-o,--output", options->output, "OUT.exr",
-           "Picture to write, OUT.exr; its record goes to OUT.json")
+  add_common(group, "--output", options->output, ": the picture; its record goes to OUT.json",
+             "OUT.exr")
       ->required();
   group.add("--png", options->png, "FILE", "Write a picture for the eye too (8 bits, sRGB)");
   group.add_number("--exposure", options->exposure, -100, 100,
                    "Stops by which the --png is brightened");
-  group.add_number("--threads", options->render.threads, 0, 1024, "Threads; 0 is all processors");
+  add_common(group, "--threads", options->render.threads)
+      ->check(between(0, 1024))
+      ->capture_default_str();
   group.add_choice("--effects", options->effects, {"as-called-for", "all"},
                    "Simulate effects as the scene calls for them, or all");
   std::vector<std::string> precisions{"sufficient"};
@@ -160,8 +181,8 @@ void add_render(CLI::App& app, ExitCode& code) {
       group.add("--target-error", options->render.target_error, "",
                 "Take samples until the picture's estimated relative error is this small");
   target_error->check(between(1e-9, 1.0));
-  auto* time_limit = group.add("--time-limit", options->render.time_limit, "",
-                               "Take no more samples once rendering would take longer, seconds");
+  auto* time_limit = add_common(group, "--time-limit", options->render.time_limit,
+                                ", with the samples that were taken");
   time_limit->check(between(1e-3, 1e7));
   group.add("--standard-error", options->standard_error, "ERROR.exr",
             fmt::format("Picture of the error of each value, from {} more renders with the next "
@@ -178,7 +199,6 @@ void add_render(CLI::App& app, ExitCode& code) {
       .add_choice("--accuracy-check", options->accuracy_check, {"truth", "none"},
                   "Measure afterwards what --accuracy reached against the truth, or none")
       ->needs(accuracy);
-  group.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
       "One ray at each pixel's centre unless --samples says otherwise. The same scene gives\n"

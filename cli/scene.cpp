@@ -1,5 +1,6 @@
 // lobelia scene SCENE [--from mitsuba] [--to FORMAT]
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
@@ -118,8 +119,8 @@ void add_scene(CLI::App& app, ExitCode&) {
             fmt::format("Format to write: {}; lobelia with --from", format_names()));
   group.add("--from", options->from, "PROGRAM", "The scene file is of another program: mitsuba")
       ->check(CLI::IsMember({"mitsuba"}));
-  group.add("-o,--output", options->output, "FILE|DIR",
-            "File to write, or a directory; otherwise standard output, if the format is one file");
+  add_common(group, "--output", options->output,
+             ": a file, or a directory; otherwise stdout, if the format is one file", "FILE|DIR");
   options->overrides.add_to(*command);
   command->footer(fmt::format(
       "Formats:\n{}\ndocs/scenes_for_others.md says what each can say.\n\n"

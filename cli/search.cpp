@@ -1,6 +1,7 @@
 // lobelia search: the cheapest lobe within an error.
 #include "studies/search/search.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
@@ -12,10 +13,11 @@ namespace {
 struct SearchArguments {
   std::string metric = "max", exponents = "16..inf", precision = "float32", coefficients = "by-n",
               family = "all";
-  std::string record;
+  std::string json;
   std::optional<double> error;
   std::optional<int> price;
-  bool certificates = false, quiet = false;
+  bool certificates = false;
+  WorkLimits limits;
 };
 
 void run_search(const SearchArguments& options, ExitCode& exit_code) {
@@ -28,14 +30,14 @@ void run_search(const SearchArguments& options, ExitCode& exit_code) {
   request.error = options.error;
   request.price = options.price;
   OutputFiles outputs;
-  outputs.writes_report(options.record);
-  ProgressLine line(!options.quiet);
+  outputs.writes_report(options.json);
+  ProgressLine line;
   request.on_progress = [&](double part, const std::string& what) { line.show(part, what); };
   records::LobeSearch found = search::search(request);
   line.clear();
   found.command = command_line();
   write_reports(search::search_text(found, request, options.certificates),
-                {{options.record, record_text(found)}});
+                {{options.json, record_text(found)}});
   if (!search::is_met(found, request)) exit_code = ExitCode::kDiffers;
 }
 
@@ -69,11 +71,10 @@ void add_search(CLI::App& app, ExitCode& exit_code) {
   lobes.add_choice("--coefficients", options->coefficients, {"by-n", "constant"},
                    "May they depend on n");
   OptionGroup output(*command, "Output");
-  output.add("-o,--output", options->record, "FILE|-",
-             "Write the record (kind lobe-search) to FILE; with - to stdout, and no table");
+  add_json(output, options->json, "lobe-search");
   output.add_flag("--certificates", options->certificates,
                   "Print the points that prove the lower bounds of the front");
-  output.add_flag("-q,--quiet", options->quiet, "No progress line");
+  options->limits.add_to(output);
   command->footer(
       "pkD.M is a clamped polynomial of degree D and M squarings, rkD.M a reciprocal, bkD.M the bits of\n"
       "a polynomial read as a number. Coefficients are best for the largest error; the other metrics\n"
@@ -84,7 +85,8 @@ void add_search(CLI::App& app, ExitCode& exit_code) {
       "  lobelia search --operations 6 --exponents 16..1024 --certificates\n"
       "\n"
       "Exit codes: 0 done, 1 no lobe meets what is asked for, 2 usage, 4 an output cannot be written.");
-  command->callback([options, &exit_code] { run_search(*options, exit_code); });
+  command->callback(
+      [options, &exit_code] { options->limits.run([&] { run_search(*options, exit_code); }); });
 }
 
 }  // namespace lobelia::cli

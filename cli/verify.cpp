@@ -1,7 +1,9 @@
 // lobelia verify paper | stability | references
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "studies/agreement/report.hpp"
@@ -14,10 +16,11 @@ namespace {
 struct VerifyPaperArguments {
   std::string json, plots;
   bool errata = false;
+  WorkLimits limits;
 };
 
 void run_verify_paper(const VerifyPaperArguments& options) {
-  if (!options.json.empty()) require_writable(options.json);
+  OutputFiles().writes_report(options.json);
   if (!options.plots.empty()) make_directories(options.plots);
   const auto claims = paper::measure_all();
   std::vector<paper::Plot> plots;
@@ -26,10 +29,10 @@ void run_verify_paper(const VerifyPaperArguments& options) {
     plots = paper::plots();
     paper::write_plots(options.plots, plots);
   }
-  if (!options.json.empty())
-    write_record(options.json, paper::paper_record(claims, command_line(), figure_records(plots)));
-  files.commit();
-  fmt::print("{}", options.errata ? paper::errata_document(claims) : paper::table_text(claims));
+  write_reports(options.errata ? paper::errata_document(claims) : paper::table_text(claims),
+                {{options.json,
+                  record_text(paper::paper_record(claims, command_line(), figure_records(plots)))}},
+                files);
 }
 
 void add_verify_paper(CLI::App& verify) {
@@ -37,36 +40,38 @@ void add_verify_paper(CLI::App& verify) {
       "paper", "Recompute every figure and claim of the paper, and say what is true");
   auto options = std::make_shared<VerifyPaperArguments>();
   OptionGroup group(*command);
-  group.add("--json", options->json, "FILE", "Write the record (kind verify-paper) to FILE");
+  add_json(group, options->json, "verify-paper");
   group.add("--plots", options->plots, "DIR",
             "Write the curves as SVG files into DIR, and into the record of --json");
   group.add_flag("--errata", options->errata, "Print docs/errata.md instead of the table");
+  options->limits.add_to(group);
   command->footer(
       "A claim is confirmed or not reproduced; 'found' is what the paper does not speak of.\n"
       "docs/errata.md has the definitions and the reasons.\n"
       "\n"
       "Exit codes: 0 measured, however much the paper gets wrong; 2 usage, 4 an output cannot\n"
       "be written.");
-  command->callback([options] { run_verify_paper(*options); });
+  command->callback([options] { options->limits.run([&] { run_verify_paper(*options); }); });
 }
 
 struct VerifyStabilityArguments {
   std::string json, pictures, lobe;
-  bool all = false, no_timing = false, quiet = false;
+  bool all = false, no_timing = false;
+  WorkLimits limits;
 };
 
 ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
   std::vector<LobeId> lobes = stability::lobes_under_test();
   if (!options.lobe.empty())
     lobes = {chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe)};
-  if (!options.json.empty()) require_writable(options.json);
+  OutputFiles().writes_report(options.json);
   if (!options.pictures.empty()) {
     make_directories(options.pictures);
     require_writable(std::filesystem::path(options.pictures) / "stability.png");
   }
   records::VerifyStability report;
   report.command = command_line();
-  ProgressLine progress(!options.quiet);
+  ProgressLine progress;
   report.rows = stability::all_rows(lobes, [&](double done) { progress.show(done, "hard cases"); });
   progress.clear();
   stability::summarise(report);
@@ -84,9 +89,7 @@ ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
   }
   const std::string text = stability::report_text(report, options.all);
   if (!options.all) stability::keep_rows_outside(report);
-  if (!options.json.empty()) write_record(options.json, report);
-  files.commit();
-  fmt::print("{}", text);
+  write_reports(text, {{options.json, record_text(report)}}, files);
   return report.outside == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
@@ -95,14 +98,14 @@ void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
       "stability", "Hold float32 and geometry to a reference of 50 digits, in the hard cases");
   auto options = std::make_shared<VerifyStabilityArguments>();
   OptionGroup group(*command);
-  group.add("--json", options->json, "FILE", "Write the record (kind verify-stability) to FILE");
+  add_json(group, options->json, "verify-stability");
   group.add("--pictures", options->pictures, "DIR",
             "Write a highlight by the textbook's float32 and by ours into DIR");
   group.add("--lobe", options->lobe, "LOBE", "This lobe alone, listed or not");
   group.add_flag("--all", options->all, "Print and record every case, not the worst alone");
   group.add_flag("--no-timing", options->no_timing,
                  "Do not measure what denormal results and precision cost");
-  group.add_flag("-q,--quiet", options->quiet, "No progress line");
+  options->limits.add_to(group);
   command->footer(
       "naive is the textbook formula in float32 without care; in the group float16 naive and ours are\n"
       "in emulated half floats, n = 8 to 1024. 'of peak' is the error relative to the highlight's\n"
@@ -114,14 +117,17 @@ void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
       "\n"
       "Exit codes: 0 no case is outside its stated bound, 1 some are; 2 usage, 4 an output\n"
       "cannot be written.");
-  command->callback([options, &exit_code] { exit_code = run_verify_stability(*options); });
+  command->callback([options, &exit_code] {
+    options->limits.run([&] { exit_code = run_verify_stability(*options); });
+  });
 }
 
 struct VerifyReferencesArguments {
-  std::string output;
+  std::string output, json;
   std::vector<std::string> engines;
   int size = 0;
-  bool small = false, json = false, markdown = false, require_engines = false, quiet = false;
+  bool small = false, markdown = false, require_engines = false;
+  WorkLimits limits;
   EnginePrograms programs;
 };
 
@@ -157,28 +163,27 @@ ExitCode run_verify_references(const VerifyReferencesArguments& options) {
   agreement::Scope scope{options.small,
                          options.small ? agreement::kSmallSize : agreement::kFullSize};
   if (options.size > 0) scope.size = options.size;
+  OutputFiles().writes_report(options.json);
   const auto engines = engines_of(options);
   const std::filesystem::path directory = options.output;
   if (!options.output.empty()) {
     make_directories(directory);
     require_writable(directory / "agreement.json");
   }
-  ProgressLine progress(!options.quiet);
+  ProgressLine progress;
   const auto result = agreement::measure(
       scope, engines, [&](double done, std::string_view what) { progress.show(done, what); });
   progress.clear();
   const records::Agreement record = agreement::report_record(result, command_line());
   const std::string page = agreement::report_markdown(result, command_for(options));
+  FilesTogether files;
   if (!options.output.empty()) {
-    FilesTogether files;
     write_record(directory / "agreement.json", record);
     write_file(directory / "agreement.csv", agreement::report_csv(result));
     write_file(directory / "agreement.md", page);
-    files.commit();
   }
-  fmt::print("{}", options.json       ? record_text(record)
-                   : options.markdown ? page
-                                      : agreement::report_text(result));
+  write_reports(options.markdown ? page : agreement::report_text(result),
+                {{options.json, record_text(record)}}, files);
   if (result.count(agreement::Verdict::kFailed) > 0) return ExitCode::kEngine;
   return result.count(agreement::Verdict::kMissed) > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }
@@ -188,8 +193,8 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
       "references", "Hold ours and every engine to the formulas, and engines to one another");
   auto options = std::make_shared<VerifyReferencesArguments>();
   OptionGroup group(*command);
-  group.add("-o,--output", options->output, "DIR",
-            "Directory for agreement.json (kind agreement), agreement.csv and agreement.md");
+  add_common(group, "--output", options->output,
+             ": agreement.json (kind agreement), agreement.csv and agreement.md", "DIR");
   group.add_flag("--small", options->small, "A part of it that takes less than a minute");
   group.add("--size", options->size, "", "Width of pictures; usually 96, with --small 64")
       ->check(between(agreement::kSmallestSize, agreement::kLargestSize));
@@ -198,10 +203,10 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
   options->programs.add_to(*command);
   group.add_flag("--require-engines", options->require_engines,
                  "An engine that is not installed is an error");
-  auto* json = group.add_flag("--json", options->json, "Print the record instead of the table");
+  auto* json = add_json(group, options->json, "agreement");
   group.add_flag("--markdown", options->markdown, "Print docs/agreement.md instead of the table")
       ->excludes(json);
-  group.add_flag("-q,--quiet", options->quiet, "No progress line");
+  options->limits.add_to(group);
   command->footer(
       "Differences are from pictures evaluated from the formulas in double or 50 digits. Those of\n"
       "the value are what number formats leave, those of the peak what arithmetic leaves; pixels\n"
@@ -209,13 +214,16 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
       "\n"
       "Exit codes: 0 every target is met, 1 some are missed; 2 usage, 4 an output cannot be\n"
       "written, 5 an engine that was named or required is absent, one is broken, or one failed.");
-  command->callback([options, &exit_code] { exit_code = run_verify_references(*options); });
+  command->callback([options, &exit_code] {
+    options->limits.run([&] { exit_code = run_verify_references(*options); });
+  });
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app, ExitCode& exit_code) {
-  auto* command = app.add_subcommand("verify", "Hold claims to a measurement");
+  auto* command =
+      app.add_subcommand("verify", "Check the paper, float32 and the engines by measurement");
   command->require_subcommand(1);
   command->footer(
       "Begin with:\n  lobelia verify paper\n  lobelia verify stability\n"

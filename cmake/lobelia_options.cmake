@@ -60,6 +60,24 @@ function(lobelia_compile_quickly target room)
   endif()
 endfunction()
 
+# lobelia_module(zip USER lobelia_gallery LINK PkgConfig::LibZip): a module (core/module.hpp), built with its user. Without
+# SOURCES it has no code and only brings libraries. The shared library needs modules too, so all are in its package.
+function(lobelia_module name)
+  cmake_parse_arguments(ARG "" "USER" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_SOURCES)
+    set(ARG_SOURCES ${CMAKE_CURRENT_BINARY_DIR}/lobelia_${name}.cpp)
+    file(CONFIGURE OUTPUT ${ARG_SOURCES} CONTENT "// No code: see lobelia_module() in cmake/.\n")
+  endif()
+  add_library(lobelia_${name} MODULE ${ARG_SOURCES})
+  set_target_properties(lobelia_${name} PROPERTIES PREFIX "")
+  target_link_options(lobelia_${name} PRIVATE LINKER:--no-as-needed)
+  target_link_libraries(lobelia_${name} PRIVATE ${ARG_LINK})
+  install(TARGETS lobelia_${name} LIBRARY DESTINATION lib/lobelia COMPONENT library)
+  if(ARG_USER)
+    add_dependencies(${ARG_USER} lobelia_${name})
+  endif()
+endfunction()
+
 # lobelia_room(core LINK fmt::fmt): a library of all .cpp files in the room's folder. FOLDER is a subfolder to use instead.
 # EXCEPT and ALONE are regular expressions of paths: files outside of the room, and files that are compiled by themselves
 # because they share names with others.

@@ -64,6 +64,17 @@ lobelia_package(library ${library} libs "comparison of specular highlights (shar
   "This package has the shared library, and the parts that read pictures.")
 lobelia_package(development liblobelia-dev libdevel "comparison of specular highlights (development files)"
   "This package has the header, and files for CMake and pkg-config.")
+if(TARGET lobelia_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  lobelia_package(python python3-lobelia python "comparison of specular highlights (Python module)"
+    "This package has the module for Python 3, and a plug-in for pytest.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${library} ${exact}, ${LOBELIA_PYTHON_DEPENDS}")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "lobelia ${exact}, python3-matplotlib, python3-pytest")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/packaging/python/postinst ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
+endif()
 lobelia_package(doc lobelia-doc doc "comparison render farm for specular highlights (documentation)"
   "This package has the documentation as Markdown.")
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

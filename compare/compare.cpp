@@ -14,6 +14,7 @@
 #include "compare/uncertainty/critical.hpp"
 #include "compare/uncertainty/z_test.hpp"
 #include "core/constants.hpp"
+#include "core/scratch_memory.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -28,9 +29,11 @@ constexpr char kOpenPixels[] = "z.open";
 std::int64_t count_nonfinite_pixels(const Image& image) {
   const std::span<const float> values = image.values();
   std::int64_t count = 0;
-  for (std::size_t i = 0; i < values.size(); i += 3)
-    count +=
-        !std::isfinite(values[i]) || !std::isfinite(values[i + 1]) || !std::isfinite(values[i + 2]);
+  in_parts(image.pixel_count(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; i += 3)
+      count += !std::isfinite(values[i]) || !std::isfinite(values[i + 1]) ||
+               !std::isfinite(values[i + 2]);
+  });
   return count;
 }
 

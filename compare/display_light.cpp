@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/scratch_memory.hpp"
+
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__
 #define HWY_COMPILE_ONLY_STATIC
@@ -117,6 +119,9 @@ void DisplayLight::fill(int y, int first, std::span<float> rgb) const {
   else
     HWY_DYNAMIC_DISPATCH(rational_lanes)
   (tone_constants(curve_), float(gain_), values, rgb.data(), rgb.size());
+  // The system brings the pages around as well.
+  constexpr std::size_t kAround = std::size_t{64} << 10;
+  looked_at(rgb.size_bytes() + kAround);
 }
 
 }  // namespace lobelia

@@ -35,11 +35,13 @@ std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
     const double least = kHighlightShare * peak_value(*image);
     if (!(least > 0)) continue;
     const std::span<const float> values = image->values();
-    for (std::size_t pixel = 0; pixel < region.size(); ++pixel)
-      if (double(std::max({values[3 * pixel], values[3 * pixel + 1], values[3 * pixel + 2]})) >=
-              least &&
-          (mask.empty() || mask[pixel] != 0))
-        region[pixel] = 1;
+    in_parts(region.size(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t pixel = begin; pixel < end; ++pixel)
+        if (double(std::max({values[3 * pixel], values[3 * pixel + 1], values[3 * pixel + 2]})) >=
+                least &&
+            (mask.empty() || mask[pixel] != 0))
+          region[pixel] = 1;
+    });
   }
   return region;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/image.hpp"
@@ -11,6 +12,8 @@ namespace lobelia {
 /// The picture on an sRGB display: values times 2^exposure_stops, clipped to [0, 1], encoded
 /// by the sRGB display of core/lobelia.ocio, rounded to 8 bits. Non-finite pixels become magenta.
 DisplayImage to_display(const Image& image, double exposure_stops);
+/// The same for rows of a picture, 3 * width floats each.
+DisplayImage to_display(std::span<const float> rows, int width, double exposure_stops);
 
 /// An sRGB-encoded value (IEC 61966-2-1) as linear light.
 float srgb_decoded(float value);
@@ -38,11 +41,11 @@ class DisplayView {
   /// Null for Lobelia's own sRGB display, which needs no OpenColorIO. Throws Error(kInput) for a configuration that
   /// cannot be read or used, Error(kUsage) for a display, view or colour space that it lacks, naming those it has.
   static std::shared_ptr<const DisplayView> open(const DisplayViewChoice& choice);
-  ~DisplayView();
+  virtual ~DisplayView() = default;
 
   /// The display's linear light in Rec. 709 primaries, clipped to [0, 1], 1 for its white: `scene_linear` times
   /// 2^exposure_stops, through the view, decoded again.
-  Image shown(const Image& scene_linear, double exposure_stops) const;
+  virtual Image shown(const Image& scene_linear, double exposure_stops) const = 0;
 
   /// With the names of all defaults.
   const DisplayViewChoice& choice() const { return choice_; }
@@ -51,12 +54,10 @@ class DisplayView {
   /// "XYZ" if the configuration defines the display's light; "sRGB" if not, and its values are decoded as sRGB.
   const std::string& decoded_by() const { return decoded_by_; }
 
- private:
-  struct Processors;
-  DisplayView();
+ protected:
+  DisplayView() = default;
   DisplayViewChoice choice_;
   std::string config_id_, decoded_by_;
-  std::unique_ptr<Processors> processors_;
 };
 
 }  // namespace lobelia

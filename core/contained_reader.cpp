@@ -14,6 +14,8 @@
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 
 #include "core/descriptor.hpp"
 #include "core/error.hpp"
@@ -22,6 +24,7 @@
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
+#include "core/scratch_memory.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
@@ -32,6 +35,7 @@ namespace {
 
 std::atomic<bool> g_on_one_thread{false}, g_any_format{false}, g_base_only{false};
 
+constexpr char kStopped[] = "the decoder stopped in the middle";
 constexpr int kNotLoaded = 127;        // exit code of the dynamic linker
 constexpr int kPollMilliseconds = 50;  // between looks for Ctrl-C
 
@@ -169,21 +173,54 @@ class Pool {
   std::vector<std::unique_ptr<Reader>> idle_;
 };
 
+/// A length and as many bytes, at most `most`; nothing if there are not as many.
+std::optional<std::string> receive_text(int pipe, std::uint64_t most) {
+  std::uint64_t size = 0;
+  if (read_from_pipe(pipe, &size, sizeof size) != sizeof size || size > most) return std::nullopt;
+  std::string bytes(size, '\0');
+  if (read_from_pipe(pipe, bytes.data(), size) != size) return std::nullopt;
+  return bytes;
+}
+
+/// Fills in a picture's values. Returns false, with the reason in `outcome`, if they do not all come.
+bool receive_values(int pipe, std::span<std::byte> values, Outcome& outcome) {
+  constexpr std::size_t kPart = std::size_t{4} << 20;
+  while (!values.empty()) {
+    std::uint64_t size = 0;
+    if (read_from_pipe(pipe, &size, sizeof size) != sizeof size) break;
+    if (size == kNoMoreValues) {
+      auto refusal = receive_text(pipe, kMaxRequestBytes);
+      if (!refusal) break;
+      outcome.is_complete = true;
+      outcome.problem = std::move(*refusal);
+      return false;
+    }
+    if (size == 0 || size > values.size()) break;
+    for (std::uint64_t done = 0; done < size;) {
+      const std::size_t part = std::min<std::size_t>(kPart, size - done);
+      if (read_from_pipe(pipe, values.data() + done, part) != part) {
+        outcome.problem = kStopped;
+        return false;
+      }
+      looked_at(part);
+      done += part;
+    }
+    values = values.subspan(size);
+  }
+  if (!values.empty()) outcome.problem = kStopped;
+  return values.empty();
+}
+
 /// Reads the answer. Trusts nothing in it before it is checked.
 Outcome receive_answer(int pipe) {
   Outcome outcome;
-  std::uint64_t size = 0;
-  if (read_from_pipe(pipe, &size, sizeof size) != sizeof size || size > kMaxAnswerBytes) {
+  const std::optional<std::string> bytes = receive_text(pipe, kMaxAnswerBytes);
+  if (!bytes) {
     outcome.problem = "the decoder gave no answer";
     return outcome;
   }
-  std::string bytes(size, '\0');
-  if (read_from_pipe(pipe, bytes.data(), size) != size) {
-    outcome.problem = "the decoder stopped in the middle";
-    return outcome;
-  }
   try {
-    ReadingAnswer answer = unpack_answer(bytes);
+    ReadingAnswer answer = unpack_answer(*bytes);
     outcome.names = std::move(answer.names);
     outcome.is_complete = answer.kind == ReadingAnswer::Kind::kRefusal;
     outcome.problem = std::move(answer.refusal);
@@ -196,11 +233,8 @@ Outcome receive_answer(int pipe) {
     outcome.problem = fmt::format("the decoder's answer is damaged: {}", error.what());
     return outcome;
   }
-  for (Image* image : {&outcome.picture.image, &outcome.picture.overscan}) {
-    const auto values = std::as_writable_bytes(image->values());
-    if (read_from_pipe(pipe, values.data(), values.size()) != values.size())
-      outcome.problem = "the decoder stopped in the middle";
-  }
+  for (Image* image : {&outcome.picture.image, &outcome.picture.overscan})
+    if (!receive_values(pipe, std::as_writable_bytes(image->values()), outcome)) break;
   return outcome;
 }
 
@@ -242,7 +276,7 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
   for (int attempt = 0;; ++attempt) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) system_failure("pipe", errno);
-    const Descriptor answer(ends[0]);
+    Descriptor answer(ends[0]);
     Descriptor theirs(ends[1]);
     ::fcntl(theirs.get(), F_SETPIPE_SZ, 1 << 20);  // faster, but not necessary
     auto reader = pool.take();
@@ -251,6 +285,7 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
     ReaderVerdict verdict;
     if (sent) {
       Outcome outcome = receive_answer(answer.get());
+      answer.close();  // a decoder that has more to say ends
       if (reader->receive(verdict)) {
         pool.give_back(std::move(reader));
         const std::string why = decoder_problem(verdict);

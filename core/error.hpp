@@ -21,8 +21,10 @@ enum class ExitCode : int {
   kUndecided = 6,      ///< no difference was found, and the noise of the pictures could hide one
   kInternal = 70,      ///< a bug of ours
   kNoResources = 71,   ///< the system gives no more memory, threads, processes or open files
+  kTimedOut = 124,     ///< --time-limit is over, as timeout(1) has it
   kHungUp = 129,       ///< SIGHUP: the terminal was closed
   kInterrupted = 130,  ///< Ctrl-C; also thrown for SIGHUP and SIGTERM, see interrupt_exit_code()
+  kBrokenPipe = 141,   ///< nobody reads stdout any more, as in `lobelia models | head`
   kTerminated = 143    ///< SIGTERM
 };
 

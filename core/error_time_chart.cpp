@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/numbers.hpp"
 
 namespace lobelia {
 namespace {
@@ -16,7 +17,7 @@ struct Unit {
 };
 Unit unit_for(double seconds) {
   if (seconds < 1e-6) return {"ns", 1e-9};
-  if (seconds < 1e-3) return {"us", 1e-6};
+  if (seconds < 1e-3) return {"µs", 1e-6};
   if (seconds < 1) return {"ms", 1e-3};
   return {"s", 1};
 }
@@ -58,7 +59,7 @@ Chart error_time_chart(const ErrorTimes& times) {
   chart.id = times.id;
   chart.title = times.title;
   chart.description =
-      fmt::format("{} over {}; {} ways, of which {} are on the Pareto front", times.error_label,
+      fmt::format("{} over {}; {} variants, of which {} are on the Pareto front", times.error_label,
                   times.cost_unit.empty() ? "time" : times.cost_unit, points.size(),
                   std::ranges::count(points, true, &TimedError::on_front));
   chart.height = 460;
@@ -71,14 +72,18 @@ Chart error_time_chart(const ErrorTimes& times) {
   }
   widen(chart.x, costs);
   widen(chart.y, errors);
+  if (std::ranges::count(errors, 0.0) > 0) chart.y.from /= 10, chart.y.starts_at_zero = true;
 
-  ChartSeries front{"the Pareto front", {}, {}, 1};
-  ChartSeries on{"on it", {}, {}, 1}, off{"dominated", {}, {}, 2};
+  ChartSeries front{"Pareto front", {}, {}, 1};
+  ChartSeries on{"on the front", {}, {}, 1}, off{"beaten in both", {}, {}, 2};
   on.markers = off.markers = true;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = costs[i], y = std::max(errors[i], chart.y.from);
     add(points[i].on_front ? on : off, points[i], x, y, unit.seconds);
-    if (!points[i].on_front) continue;
+    if (!points[i].on_front) {
+      off.point_names.push_back(points[i].off_front_name);
+      continue;
+    }
     on.point_names.push_back(points[i].name);
     // A step: between two points the faster one's error applies.
     if (!front.x.empty()) front.x.push_back(x), front.y.push_back(front.y.back());
@@ -93,10 +98,15 @@ std::string short_time_text(double seconds) {
   const auto scaled = [](double value, const char* unit) {
     return fmt::format("{:.{}f} {}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0, unit);
   };
+  if (seconds == 0) return "0 s";
   if (seconds < 1e-6) return scaled(seconds * 1e9, "ns");
-  if (seconds < 1e-3) return scaled(seconds * 1e6, "us");
+  if (seconds < 1e-3) return scaled(seconds * 1e6, "µs");
   if (seconds < 1) return scaled(seconds * 1e3, "ms");
   return scaled(seconds, "s");
+}
+
+std::string quantity_text(double value, const std::string& unit) {
+  return unit == "s" ? short_time_text(value) : number_text(value, 3) + " " + unit;
 }
 
 }  // namespace lobelia

@@ -16,7 +16,8 @@ struct TimedError {
   double error = 0;        ///< not negative
   double error_error = 0;  ///< half length of its error bar
   bool on_front = false;
-  std::string key = {};  ///< for ChartSeries::point_keys
+  std::string key = {};             ///< for ChartSeries::point_keys
+  std::string off_front_name = {};  ///< drawn where the point is not on the front; may be empty
 };
 
 struct ErrorTimes {
@@ -28,10 +29,12 @@ struct ErrorTimes {
   std::vector<TimedError> points;  ///< points that are not finite are left out
 };
 
-/// Both axes are logarithmic, over whole decades. Points without any error lie on the axis.
+/// Both axes are logarithmic, over whole decades. Points without any error lie at its start, which is then labelled 0.
 Chart error_time_chart(const ErrorTimes& times);
 
 /// "3.14 ns", "0.42 ms", "1.70 s": three digits.
 std::string short_time_text(double seconds);
+/// That of seconds, "s"; of other units three digits and the unit.
+std::string quantity_text(double value, const std::string& unit);
 
 }  // namespace lobelia

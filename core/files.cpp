@@ -116,15 +116,24 @@ void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> byte
   }
 }
 
-void PartFile::finish() {
+void PartFile::flush() {
+  if (!file_) return;
   // Without fsync a full disk may be noticed only after the rename.
   if (::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
   if (::close(file_.release()) != 0) fail(errno);
+}
+
+void PartFile::finish() {
   if (FilesTogether* const together = FilesTogether::current_) {
     const std::lock_guard lock(together->mutex_);
+    // A few stay open until commit(), because flushing several at once takes no longer than one.
+    constexpr std::size_t kMostOpen = 16;
+    if (together->finished_.size() >= kMostOpen) flush();
+    if (file_) ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);  // begins to write it
     together->finished_.push_back(std::move(*this));
     return;
   }
+  flush();
   if (::rename(part_.path().c_str(), target_.c_str()) != 0) fail(errno);
 }
 
@@ -138,6 +147,7 @@ FilesTogether::~FilesTogether() {
 }
 
 void FilesTogether::commit() {
+  for (PartFile& file : finished_) file.flush();
   const EndDelay delay;
   throw_if_interrupted();
   for (PartFile& file : finished_) {
@@ -179,13 +189,18 @@ void make_directories(const fs::path& path) {
 }
 
 TemporaryDirectory::TemporaryDirectory()
-    : path_([&] {
+    : TemporaryDirectory([] {
         std::error_code error;
-        const fs::path parent = fs::temp_directory_path(error);
+        fs::path parent = fs::temp_directory_path(error);
         if (error)
           throw Error(
               ExitCode::kOutput,
               fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
+        return parent;
+      }()) {}
+
+TemporaryDirectory::TemporaryDirectory(const fs::path& parent)
+    : path_([&] {
         while (true) {
           std::string name = (parent / kTemporaryName).string() + "XXXXXX";
           if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);

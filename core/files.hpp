@@ -41,12 +41,13 @@ class PartFile {
   /// Overwrites bytes that are there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
-  /// Flushes to the disk, then renames. If there is a FilesTogether, its commit() renames instead.
+  /// Flushes to the disk, then renames. If there is a FilesTogether, its commit() does both instead.
   void finish();
 
  private:
   friend class FilesTogether;
   [[noreturn]] void fail(int error);
+  void flush();
   Descriptor file_;
   std::filesystem::path path_, target_;
   TemporaryPath part_;
@@ -54,7 +55,7 @@ class PartFile {
 };
 
 /// Publishes all files of a command at once: while this lives, finished PartFiles keep their temporary names until
-/// commit() renames them all. Without commit() none is left behind. A process has at most one at a time.
+/// commit() flushes and renames them all. Without commit() none is left behind. A process has at most one at a time.
 class FilesTogether {
  public:
   FilesTogether();
@@ -82,6 +83,8 @@ void make_directories(const std::filesystem::path& path);
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
+  /// Below `parent`, for what is then renamed into it.
+  explicit TemporaryDirectory(const std::filesystem::path& parent);
   ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "core/scratch_memory.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -25,6 +27,7 @@ void* allocate_zeroed(std::size_t bytes) {
     if (!memory) throw std::bad_alloc();
     return memory;
   }
+  if (void* mapped = map_file(bytes)) return mapped;
   // One page more than needed: the parts before and behind the aligned large pages are given back.
   const std::size_t size = in_large_pages(bytes), reserved = size + kLargePage;
   void* memory =
@@ -42,7 +45,7 @@ void* allocate_zeroed(std::size_t bytes) {
 void free_zeroed(void* memory, std::size_t bytes) {
   if (bytes < kLarge)
     std::free(memory);
-  else
+  else if (!unmap_file(memory))
     ::munmap(memory, in_large_pages(bytes));
 }
 

@@ -22,7 +22,7 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 ///
 /// The first to write a page is the thread that renders it. A first write costs up to 2 us in a virtual machine, and a
 /// picture of 12 MB has 3000 pages of the usual size, but six large ones: usual pages would take three times as long as
-/// rendering the picture (`make bench`).
+/// rendering the picture (`make bench-details`).
 void* allocate_zeroed(std::size_t bytes);
 void free_zeroed(void* memory, std::size_t bytes);
 

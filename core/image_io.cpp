@@ -1,8 +1,6 @@
 // The loader of the image module: see image_io.hpp for why there is one.
 #include "core/image_io.hpp"
 
-#include <dlfcn.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 
 #include <cerrno>
@@ -11,33 +9,14 @@
 #include "core/error.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
-#include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
+#include "core/png_writer.hpp"
 #include "core/threads.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
-
-fs::path find_companion(std::string_view name) {
-  // Looked up once, because the library's name may be relative to the directory that the program began in.
-  static const std::vector<fs::path> places = [] {
-    const fs::path file = own_file(), here = file.parent_path(), above = here.parent_path();
-    if (file == fs::read_symlink("/proc/self/exe")) return std::vector{here, above / "lib/lobelia"};
-    // Debian has libraries in lib/ARCHITECTURE.
-    return std::vector{here, here / "lobelia", above / "lobelia"};
-  }();
-  for (const fs::path& place : places)
-    if (fs::is_regular_file(place / name)) return place / name;
-  return {};
-}
-
-fs::path companion_file(const char* name) {
-  if (fs::path found = find_companion(name); !found.empty()) return found;
-  throw Error(ExitCode::kInternal, fmt::format("{} is neither beside {} nor in ../lib/lobelia",
-                                               name, own_file().string()));
-}
 
 namespace {
 
@@ -64,17 +43,12 @@ void require_room_for_module() {
 
 }  // namespace
 
+constinit Module image_io_module{"lobelia_image_io.so", "image module", require_room_for_module};
+
 const ImageIoTable& image_io_table() {
-  static const ImageIoTable& table = []() -> const ImageIoTable& {
-    require_room_for_module();
-    void* handle = ::dlopen(companion_file(kImageIoModuleFile).c_str(), RTLD_LAZY | RTLD_LOCAL);
-    if (!handle)
-      throw failure_of("image module", std::runtime_error(::dlerror()), ExitCode::kInternal);
-    const void* symbol = ::dlsym(handle, kImageIoTableSymbol);
-    if (!symbol) throw Error(ExitCode::kInternal, fmt::format("image module: {}", ::dlerror()));
-    return *static_cast<const ImageIoTable*>(symbol);
-  }();
-  return table;
+  static const auto* const table =
+      static_cast<const ImageIoTable*>(image_io_module.find(kImageIoTableSymbol));
+  return *table;
 }
 
 Image read_image(const fs::path& path) { return read_picture(path, "").image; }
@@ -92,11 +66,21 @@ void write_exr(const fs::path& path, const Image& image, const ImageMetadata& me
 }
 
 void write_png(const fs::path& path, const DisplayImage& image, const ImageMetadata& metadata) {
-  write_file(path, image_io_table().encode_png(image, metadata));
+  PngWriter writer(path, image.width, image.height, metadata);
+  writer.write_rows(image);
+  writer.finish();
+}
+
+std::string png_bytes(const DisplayImage& image, const ImageMetadata& metadata) {
+  const auto encoder = image_io_table().start_png(image.width, image.height, metadata);
+  std::string file;
+  for (const auto& bytes : {encoder->encode(image), encoder->finish()})
+    file.append(bytes.begin(), bytes.end());
+  return file;
 }
 
 void code_pictures_on_calling_threads() {
-  ExrWriter::set_pool(0);
+  ExrWriter::pack_on_calling_threads();
   decode_contained_on_one_thread();
   image_io_table().decode_on_calling_threads();
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "core/contained_reader.hpp"
@@ -26,6 +27,9 @@ void write_exr(const std::filesystem::path& path, const Image& image,
 /// Writes an 8-bit sRGB PNG with its metadata as texts. Errors as write_exr().
 void write_png(const std::filesystem::path& path, const DisplayImage& image,
                const ImageMetadata& metadata = {});
+
+/// The file that write_png() writes.
+std::string png_bytes(const DisplayImage& image, const ImageMetadata& metadata = {});
 
 /// Makes each picture be encoded and decoded on the thread that asks for it, instead of threads that all pictures share:
 /// for a process that handles many pictures at once. Call it before the first picture.

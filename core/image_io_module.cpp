@@ -1,4 +1,4 @@
-// The only file that knows OpenImageIO; built as a module of its own, see image_io.hpp.
+// With image_io_module_png.cpp the only file that knows OpenImageIO; built as a module of its own, see image_io.hpp.
 #include "core/image_io_module.hpp"
 
 #include <OpenImageIO/filesystem.h>
@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/gain_map.hpp"
 #include "core/icc_profile.hpp"
+#include "core/image_io_module_png.hpp"
 #include "core/picture.hpp"
 #include "core/picture_colour.hpp"
 #include "core/picture_layers.hpp"
@@ -156,6 +157,7 @@ struct Reader {
   OIIO::ImageInput& input;
   int part;
   const OIIO::ImageSpec& spec;
+  int first_row = 0, rows = spec.height;
 
   /// Channels [first, first + count) into every `stride`-th float of `values`.
   void read(int first, int count, float* values, std::size_t stride) const {
@@ -173,20 +175,24 @@ struct Reader {
            std::string_view(input.format_name()) == "openexr";
   }
   void read_numbers(int channel, float* values, std::size_t stride) const {
-    std::vector<std::uint32_t> numbers(std::size_t(spec.width) * spec.height);
+    std::vector<std::uint32_t> numbers(std::size_t(spec.width) * rows);
     read_as(OIIO::TypeDesc::UINT32, channel, 1, numbers.data(), OIIO::AutoStride);
     for (std::size_t i = 0; i < numbers.size(); ++i) values[i * stride] = float(numbers[i]);
   }
   void read_as(OIIO::TypeDesc type, int first, int count, void* values,
                OIIO::stride_t stride) const {
-    const bool read = input.read_image(part, 0, first, first + count, type, values, stride);
+    const int top = spec.y + first_row;
+    const bool read = rows == spec.height
+                          ? input.read_image(part, 0, first, first + count, type, values, stride)
+                          : input.read_scanlines(part, 0, top, top + rows, 0, first, first + count,
+                                                 type, values, stride);
     // Some readers succeed although a part of the file is missing.
     if (!read || input.has_error()) unreadable(path, input.geterror());
   }
 };
 
 Image read_channels(const Reader& reader, const std::vector<std::size_t>& where) {
-  Image image(reader.spec.width, reader.spec.height);
+  Image image(reader.spec.width, reader.rows);
   float* values = image.values().data();
   const bool in_order = where.size() == 3 && where[1] == where[0] + 1 && where[2] == where[0] + 2;
   if (in_order) {
@@ -377,6 +383,27 @@ void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const Colou
   apply_gain(*gain, read_map(file, *gain, claim_of(spec, "jpeg")), primaries, picture.image);
 }
 
+/// Whether the file's rows are those of the picture, and each needs no other.
+bool has_plain_rows(const OIIO::ImageSpec& spec, const PictureSource& source) {
+  return source.format == "openexr" && spec.tile_width == 0 && source.data == source.display;
+}
+
+void read_in_bands(const Reader& whole, const PictureLayer& layer, const ColourMeaning& meaning,
+                   const PictureBytes& file, const PictureSource& source) {
+  constexpr int kBandPixels = 2 << 20;
+  constexpr int kBlock = 32;  // rows that an EXR may pack together
+  const int height = whole.spec.height;
+  const int rows = std::max(kBlock, kBandPixels / whole.spec.width / kBlock * kBlock);
+  for (int y = 0; y < height; y += rows) {
+    Reader reader = whole;
+    reader.first_row = y;
+    reader.rows = std::min(rows, height - y);
+    Picture band{read_channels(reader, layer.where), {}, source};
+    decode_colours(file.path, meaning, band);
+    file.on_rows(band, y);
+  }
+}
+
 Picture read(const PictureBytes& file, const std::string& layer_name) {
   const std::filesystem::path& path = file.path;
   const std::vector<PicturePart> parts = parts_of(file);
@@ -412,6 +439,10 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   if (layer.is_colour) meaning = colour_meaning(file, spec, format, type);
   add_profile(file, spec, format, layer, source, meaning);
   const Reader reader{path, *input, part, spec};
+  if (file.on_rows && has_plain_rows(spec, source)) {
+    read_in_bands(reader, layer, meaning, file, source);
+    return picture;
+  }
   picture.image = read_channels(reader, layer.where);
   decode_colours(path, meaning, picture);
   if (format == "jpeg" && layer_name.empty()) add_gain(file, spec, meaning, picture);
@@ -426,21 +457,6 @@ std::vector<std::string> list_layers(const PictureBytes& file) {
   std::vector<std::string> names;
   for (const PictureLayer& layer : picture_layers(parts_of(file))) names.push_back(layer.name);
   return names;
-}
-
-std::vector<std::uint8_t> encode_png(const DisplayImage& image, const ImageMetadata& metadata) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  std::vector<std::uint8_t> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create("png");
-  if (!output)
-    throw Error(ExitCode::kInternal, fmt::format("no writer for png: {}", OIIO::geterror()));
-  if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) || !output->close())
-    throw Error(ExitCode::kOutput, fmt::format("cannot encode png: {}", output->geterror()));
-  return bytes;
 }
 
 ColourTable table_of_colours(std::string_view name) {
@@ -470,7 +486,7 @@ extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
 const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read,
                                                       lobelia::list_layers,
-                                                      lobelia::encode_png,
+                                                      lobelia::start_png,
                                                       lobelia::table_of_colours,
                                                       [] { OIIO::attribute("exr_threads", -1); },
                                                       [] { OIIO::ImageInput::create("openexr"); }};

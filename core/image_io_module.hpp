@@ -2,8 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "core/image_io.hpp"
+#include "core/module.hpp"
 
 namespace lobelia {
 
@@ -22,28 +25,33 @@ struct PictureBytes {
   std::filesystem::path reopen = {};
   bool base_only = false;                                   ///< leaves out a gain map
   std::function<void(const PictureClaim&)> on_header = {};  ///< may throw
+  /// If set, a picture that can be decoded in bands of rows goes there instead, from the top: the band as a picture with the
+  /// source of all, and its first row.
+  std::function<void(const Picture& band, int y)> on_rows = {};
+};
+
+/// Encodes a PNG a few rows at a time; each call returns the next bytes of its file.
+class PngEncoder {
+ public:
+  virtual ~PngEncoder() = default;
+  virtual std::vector<std::uint8_t> encode(const DisplayImage& rows) = 0;
+  virtual std::vector<std::uint8_t> finish() = 0;
 };
 
 struct ImageIoTable {
   Picture (*read_picture)(const PictureBytes&, const std::string& layer);
   std::vector<std::string> (*layer_names)(const PictureBytes&);
-  std::vector<std::uint8_t> (*encode_png)(const DisplayImage&, const ImageMetadata&);
+  std::unique_ptr<PngEncoder> (*start_png)(int width, int height, const ImageMetadata&);
   ColourTable (*colour_table)(std::string_view);
   void (*decode_on_calling_threads)();
   void (*load_formats)();  ///< now instead of at the first picture
 };
 
 inline constexpr char kReaderFile[] = "lobelia_picture_reader";
-inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";
+extern Module image_io_module;
 inline constexpr char kImageIoTableSymbol[] = "lobelia_image_io_table";
 
 /// Loads the module at the first call. Throws Error(kInternal) if it is not there.
 const ImageIoTable& image_io_table();
-
-/// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia; for the
-/// shared library beside that, or in lobelia/ or ../lobelia. Throws Error(kInternal) if it is in none.
-std::filesystem::path companion_file(const char* name);
-/// Empty if it is in none.
-std::filesystem::path find_companion(std::string_view name);
 
 }  // namespace lobelia

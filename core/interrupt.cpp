@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 #include <semaphore.h>
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <ctime>
@@ -99,19 +102,21 @@ void end_after_first_signal() {
   remove_temporary_paths();
   // A progress line may stand there.
   const std::string line =
-      fmt::format("{}lobelia: interrupted\n", ::isatty(2) == 1 ? "\r\x1b[K" : "");
+      fmt::format("{}lobelia: {}\n", ::isatty(2) == 1 ? "\r\x1b[K" : "", interrupt_reason());
   write_message_if_room(line);
   ::_exit(int(interrupt_exit_code()));
 }
 
 void on_signal(int signal) {
-  int none = 0;
-  if (g_signal.compare_exchange_strong(none, signal)) {
-    g_first_time = now();
+  // Two threads may each be given a signal: the time tells which was first, so that none sees a first without a time.
+  const std::int64_t time = now();
+  std::int64_t first_time = 0;
+  if (g_first_time.compare_exchange_strong(first_time, time)) {
+    g_signal = signal;
     ::sem_post(&g_signalled);
     return;
   }
-  if (now() - g_first_time < kOneRequestNanoseconds) return;
+  if (time - first_time < kOneRequestNanoseconds) return;
   const LastWords& words = g_last_words[g_last_words_index];
   write_message_if_room({words.text, words.size});
   end_keepers();
@@ -125,7 +130,7 @@ void catch_interrupts() {
   ::sem_init(&g_signalled, 0, 0);
   struct sigaction action {};
   action.sa_handler = on_signal;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) sigaction(signal, &action, nullptr);
 }
 
 void end_soon_when_interrupted() {
@@ -140,16 +145,35 @@ void end_by_ourselves_when_interrupted() { g_ends_soon = false; }
 
 bool interrupted() { return g_signal != 0; }
 
-void request_interrupt() { g_signal = SIGINT; }
+void request_interrupt() {
+  g_first_time = now();
+  g_signal = SIGINT;
+}
 
-void forget_interrupt() { g_signal = 0; }
+void forget_interrupt() {
+  g_signal = 0;
+  g_first_time = 0;
+}
+
+void end_after(double seconds) {
+  itimerval timer{};
+  timer.it_value.tv_sec = time_t(seconds);
+  timer.it_value.tv_usec = std::max(1L, long(1e6 * (seconds - std::floor(seconds))));
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
 
 ExitCode interrupt_exit_code() {
-  return g_signal == 0 ? ExitCode::kInterrupted : ExitCode(128 + g_signal);
+  return g_signal == 0         ? ExitCode::kInterrupted
+         : g_signal == SIGALRM ? ExitCode::kTimedOut
+                               : ExitCode(128 + g_signal);
+}
+
+std::string_view interrupt_reason() {
+  return g_signal == SIGALRM ? "the time is over (--time-limit)" : "interrupted";
 }
 
 void throw_if_interrupted() {
-  if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted");
+  if (interrupted()) throw Error(ExitCode::kInterrupted, std::string(interrupt_reason()));
 }
 
 void interrupts_come_too_late() { g_too_late = true; }

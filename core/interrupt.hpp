@@ -26,8 +26,12 @@ bool interrupted();
 void request_interrupt();
 /// Takes it back once that work has stopped.
 void forget_interrupt();
-/// 128 + the number of the first signal: kInterrupted, kTerminated or kHungUp.
+/// Asks to stop once this time is over; interrupt_exit_code() is kTimedOut then.
+void end_after(double seconds);
+/// 128 + the number of the first signal: kInterrupted, kTerminated or kHungUp; or kTimedOut.
 ExitCode interrupt_exit_code();
+/// "interrupted", or that the time limit is over.
+std::string_view interrupt_reason();
 /// Throws Error(kInterrupted) if interrupted().
 void throw_if_interrupted();
 

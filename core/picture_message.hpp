@@ -23,8 +23,10 @@ struct ReadingRequest {
 };
 
 inline constexpr int kRequestDescriptors = 2;
+inline constexpr std::uint64_t kNoMoreValues = ~std::uint64_t{0};
 
-/// The answer, without a picture's values: those follow as they are.
+/// The answer, without a picture's values: those follow in pieces, each after its length in bytes as a std::uint64_t. In place
+/// of a length kNoMoreValues says that decoding failed; then follow the length and the text of a refusal.
 struct ReadingAnswer {
   enum class Kind : std::uint64_t { kRefusal, kNames, kPicture };
   Kind kind = Kind::kRefusal;

@@ -99,14 +99,62 @@ Picture read_checked(const ImageIoTable& table, const PictureBytes& file,
   return picture;
 }
 
+/// Sends the answer to the program: what the picture is, and then its values in pieces (core/picture_message.hpp).
+class Sender {
+ public:
+  explicit Sender(int pipe) : pipe_(pipe) {}
+
+  bool has_begun() const { return has_begun_; }
+  void begin(const ReadingAnswer& answer) {
+    has_begun_ = true;
+    send(pack(answer));
+  }
+  void send_values(const Image& image) {
+    const auto bytes = std::as_bytes(image.values());
+    send({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  /// Instead of the values that are left.
+  void send_refusal(const std::string& refusal) {
+    write_all(pipe_, &kNoMoreValues, sizeof kNoMoreValues);
+    send(refusal);
+  }
+
+ private:
+  void send(std::string_view bytes) {
+    const std::uint64_t length = bytes.size();
+    write_all(pipe_, &length, sizeof length);
+    write_all(pipe_, bytes.data(), bytes.size());
+  }
+  int pipe_;
+  bool has_begun_ = false;
+};
+
+ReadingAnswer answer_of(const PictureSource& source, int width, int height, bool has_overscan) {
+  ReadingAnswer answer;
+  answer.kind = ReadingAnswer::Kind::kPicture;
+  answer.source = source;
+  answer.width = std::uint64_t(width);
+  answer.height = std::uint64_t(height);
+  answer.has_overscan = has_overscan;
+  return answer;
+}
+
 ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view bytes,
-                     std::uint64_t began_with, Picture& picture) {
+                     std::uint64_t began_with, Picture& picture, Sender& sender) {
   const ReadingRequest& request = job.request;
   PictureBytes file{.path = request.path,
                     .bytes = bytes,
                     .format = request.format,
                     .base_only = request.base_only};
   if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
+  if (!may_leave_memory_uninitialised(request.format))
+    file.on_rows = [&](const Picture& band, int) {
+      const PixelWindow& all = band.source.display;
+      if (!sender.has_begun()) sender.begin(answer_of(band.source, all.width, all.height, false));
+      sender.send_values(band.image);
+      // The part of the file that was read need not stay in memory.
+      ::madvise(const_cast<char*>(bytes.data()), bytes.size(), MADV_DONTNEED);
+    };
   std::uint64_t allowance = kMemoryToOpen;
   file.on_header = [&](const PictureClaim& claim) {
     if (const std::string problem = claim_problem(claim, bytes.size(), request.limit);
@@ -124,11 +172,8 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
       return answer;
     }
     picture = read_checked(table, file, request.layer);
-    answer.source = picture.source;
-    answer.width = std::uint64_t(picture.image.width());
-    answer.height = std::uint64_t(picture.image.height());
-    answer.has_overscan = picture.overscan.pixel_count() > 0;
-    answer.kind = ReadingAnswer::Kind::kPicture;
+    answer = answer_of(picture.source, picture.image.width(), picture.image.height(),
+                       picture.overscan.pixel_count() > 0);
   } catch (const std::bad_alloc&) {
     limit_memory(began_with + 2 * allowance);  // for the message
     answer.refusal = fmt::format("{}: not a readable picture: it needs more than {} MB of memory",
@@ -155,13 +200,16 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
   const void* bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, job.file, 0);
   if (bytes == MAP_FAILED) ::_exit(1);
   Picture picture;
-  const std::string answer =
-      pack(decode(table, job, {static_cast<const char*>(bytes), size}, began_with + size, picture));
-  const std::uint64_t length = answer.size();
-  write_all(job.answer, &length, sizeof length);
-  write_all(job.answer, answer.data(), answer.size());
+  Sender sender(job.answer);
+  const ReadingAnswer answer = decode(table, job, {static_cast<const char*>(bytes), size},
+                                      began_with + size, picture, sender);
+  if (sender.has_begun()) {
+    if (answer.kind == ReadingAnswer::Kind::kRefusal) sender.send_refusal(answer.refusal);
+    ::_exit(0);
+  }
+  sender.begin(answer);
   for (const Image* image : {&picture.image, &picture.overscan})
-    write_all(job.answer, image->values().data(), image->values().size_bytes());
+    if (image->pixel_count() > 0) sender.send_values(*image);
   ::_exit(0);
 }
 

@@ -2,11 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 #include <sys/stat.h>
 
 #include <charconv>
-#include <memory>
 #include <vector>
 
 #include "core/descriptor.hpp"
@@ -18,39 +17,26 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 1 << 17;
 
-/// One for each thread, because OpenSSL looks up an algorithm by its name, which takes longer than hashing a short text.
 class Hasher {
  public:
-  Hasher() : context_(::EVP_MD_CTX_new(), ::EVP_MD_CTX_free) {
-    check(context_ != nullptr && ::EVP_DigestInit_ex(context_.get(), ::EVP_sha256(), nullptr) == 1);
-  }
-  void start() { check(::EVP_DigestInit_ex(context_.get(), nullptr, nullptr) == 1); }
+  Hasher() { sha256_init(&context_); }
   void take(const void* bytes, std::size_t count) {
-    check(::EVP_DigestUpdate(context_.get(), bytes, count) == 1);
+    sha256_update(&context_, count, static_cast<const std::uint8_t*>(bytes));
   }
   Sha256Digest finish() {
     Sha256Digest digest{};
-    check(::EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) == 1);
+    sha256_digest(&context_, digest.size(), digest.data());
     return digest;
   }
 
  private:
-  static void check(bool good) {
-    if (!good) throw Error(ExitCode::kInternal, "OpenSSL has no SHA-256");
-  }
-  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
+  sha256_ctx context_;
 };
-
-Hasher& hasher() {
-  thread_local Hasher one;
-  one.start();
-  return one;
-}
 
 }  // namespace
 
 Sha256Digest sha256(std::string_view bytes) {
-  Hasher& one = hasher();
+  Hasher one;
   one.take(bytes.data(), bytes.size());
   return one.finish();
 }
@@ -64,7 +50,7 @@ Sha256Digest sha256_of_file(const std::filesystem::path& path) {
   if (!file || ::fstat(file.get(), &status) != 0) fail(errno);
   if (!S_ISREG(status.st_mode))
     throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
-  Hasher& one = hasher();
+  Hasher one;
   std::vector<char> piece(kPieceBytes);
   while (true) {
     const ssize_t n = retried([&] { return ::read(file.get(), piece.data(), piece.size()); });

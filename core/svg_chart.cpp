@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.hpp"
 #include "core/html.hpp"
 #include "core/numbers.hpp"
 
@@ -22,7 +23,8 @@ double round_step(double rough) {
   return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
 }
 
-constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
+constexpr double kLeft = 78, kRight = 24, kTop = 34, kBottom = 50;
+constexpr double kLine = 17;                 // of the legend, and of words along an axis
 constexpr double kTitle = 36, kMargin = 16;  // above and on the right, in a file of its own
 constexpr double kCharacter = 7.2;           // typical width at the font size of the styles
 constexpr double kNameCharacter = 6.3;       // the same in the name of a point
@@ -50,7 +52,15 @@ int text_length(std::string_view text) {
 
 class Drawing {
  public:
-  explicit Drawing(const Chart& chart) : chart_(chart) {}
+  explicit Drawing(const Chart& chart) : chart_(chart) {
+    // Words along an axis that are longer than it go on in further lines.
+    const double legend = legend_places().back().y;
+    top_ = kTop + legend;
+    y_label_ = wrapped(chart.y.label, chart.height - kBottom - top_);
+    left_ = kLeft + kLine * double(y_label_.size() - 1);
+    x_label_ = wrapped(chart.x.label, chart.width - left_ - kRight);
+    bottom_ = chart.height - kBottom - kLine * double(x_label_.size() - 1);
+  }
 
   std::string draw() {
     {
@@ -80,13 +90,22 @@ class Drawing {
                            {"y", number(-kTitle)},
                            {"width", number(width)},
                            {"height", number(height)}});
-      text("chart-title", kLeft, -10, "start", chart_.title);
+      text("chart-title", left_, -10, "start", chart_.title);
       draw_contents();
     }
     return html_.str();
   }
 
  private:
+  struct Name {
+    double from, to, y;
+  };
+  struct Mark {
+    double x, y;
+  };
+  static constexpr long kMostRings = 4;
+  static constexpr std::size_t kMostLines = 3;
+
   void draw_contents() {
     html_.element("title", {{"id", chart_.id + "-title"}}, chart_.title);
     html_.element("desc", {{"id", chart_.id + "-desc"}}, chart_.description);
@@ -95,11 +114,19 @@ class Drawing {
     draw_x_axis();
     draw_y_axis();
     for (const ChartSeries& series : chart_.series) draw_series(series);
+    for (std::size_t i = chart_.series.size(); i-- > 0;) draw_names(chart_.series[i]);
     draw_legend();
   }
 
   /// The axis's own ticks, otherwise about `count` round numbers.
   static std::vector<Tick> ticks_of(const ChartAxis& axis, int count) {
+    if (axis.logarithmic && axis.starts_at_zero) {
+      std::vector<Tick> ticks = log_ticks(axis.from, axis.to);
+      // The first decade stands for all between it and 0.
+      std::erase_if(ticks, [&](const Tick& tick) { return tick.value < axis.from * 9.99; });
+      ticks.insert(ticks.begin(), {axis.from, "0"});
+      return ticks;
+    }
     if (axis.ticks.empty())
       return axis.logarithmic ? log_ticks(axis.from, axis.to)
                               : linear_ticks(axis.from, axis.to, count);
@@ -113,9 +140,9 @@ class Drawing {
     return (value - axis.from) / (axis.to - axis.from);
   }
   double right() const { return chart_.width - kRight; }
-  double bottom() const { return chart_.height - kBottom; }
-  double at_x(double value) const { return kLeft + share(chart_.x, value) * (right() - kLeft); }
-  double at_y(double value) const { return bottom() - share(chart_.y, value) * (bottom() - kTop); }
+  double bottom() const { return bottom_; }
+  double at_x(double value) const { return left_ + share(chart_.x, value) * (right() - left_); }
+  double at_y(double value) const { return bottom() - share(chart_.y, value) * (bottom() - top_); }
 
   void line(const char* name, double x1, double y1, double x2, double y2) {
     html_.empty("line", {{"class", name},
@@ -132,10 +159,10 @@ class Drawing {
 
   void draw_clip() {
     const Tag clip(html_, "clipPath", {{"id", chart_.id + "-clip"}});
-    html_.empty("rect", {{"x", number(kLeft)},
-                         {"y", number(kTop - 4)},
-                         {"width", number(right() - kLeft)},
-                         {"height", number(bottom() - kTop + 8)}});
+    html_.empty("rect", {{"x", number(left_)},
+                         {"y", number(top_ - 4)},
+                         {"width", number(right() - left_)},
+                         {"height", number(bottom() - top_ + 8)}});
   }
 
   void draw_band(const ChartBand& band, std::size_t index) {
@@ -145,42 +172,46 @@ class Drawing {
     const double x1 = at_x(from), x2 = at_x(to);
     html_.empty("rect", {{"class", fmt::format("band band-{}", index % 2)},
                          {"x", number(x1)},
-                         {"y", number(kTop)},
+                         {"y", number(top_)},
                          {"width", number(x2 - x1)},
-                         {"height", number(bottom() - kTop)}});
-    if (band.to <= chart_.x.to) line("band-edge", x2, kTop, x2, bottom());
+                         {"height", number(bottom() - top_)}});
+    if (band.to <= chart_.x.to) line("band-edge", x2, top_, x2, bottom());
     if (x2 - x1 > kCharacter * text_length(band.label)) {
-      text("band-label", (x1 + x2) / 2, kTop + 15, "middle", band.label);
+      text("band-label", (x1 + x2) / 2, top_ + 15, "middle", band.label);
     }
   }
 
   void draw_x_axis() {
-    for (const Tick& tick : ticks_of(chart_.x, 10)) {
+    for (const Tick& tick : ticks_of(chart_.x, std::clamp(int((right() - left_) / 70), 3, 10))) {
       const double x = at_x(tick.value);
       line("tick", x, bottom(), x, bottom() + 5);
       text("tick-label", x, bottom() + 19, "middle", tick.label);
     }
-    line("axis", kLeft, bottom(), right(), bottom());
-    text("axis-label", (kLeft + right()) / 2, chart_.height - 8.0, "middle", chart_.x.label);
+    line("axis", left_, bottom(), right(), bottom());
+    for (std::size_t i = 0; i < x_label_.size(); ++i)
+      text("axis-label", (left_ + right()) / 2,
+           chart_.height - 8.0 - kLine * double(x_label_.size() - 1 - i), "middle", x_label_[i]);
   }
 
   void draw_y_axis() {
     for (const Tick& tick : ticks_of(chart_.y, 5)) {
       const double at = at_y(tick.value);
       if (tick.label.empty()) {
-        line("tick", kLeft - 3, at, kLeft, at);
+        line("tick", left_ - 3, at, left_, at);
         continue;
       }
-      line("grid-line", kLeft, at, right(), at);
-      text("tick-label", kLeft - 8, at + 4, "end", tick.label);
+      line("grid-line", left_, at, right(), at);
+      text("tick-label", left_ - 8, at + 4, "end", tick.label);
     }
-    line("axis", kLeft, kTop, kLeft, bottom());
-    const double middle = (kTop + bottom()) / 2;
-    html_.element("text",
-                  {{"class", "axis-label"},
-                   {"transform", fmt::format("translate(16 {}) rotate(-90)", number(middle))},
-                   {"text-anchor", "middle"}},
-                  chart_.y.label);
+    line("axis", left_, top_, left_, bottom());
+    const double middle = (top_ + bottom()) / 2;
+    for (std::size_t i = 0; i < y_label_.size(); ++i)
+      html_.element("text",
+                    {{"class", "axis-label"},
+                     {"transform", fmt::format("translate({} {}) rotate(-90)",
+                                               number(16 + kLine * double(i)), number(middle))},
+                     {"text-anchor", "middle"}},
+                    y_label_[i]);
   }
 
   std::string path_of(const ChartSeries& series) const {
@@ -203,19 +234,19 @@ class Drawing {
 
   /// A circle, diamond or square, so that styles differ without colour.
   void draw_marker(const ChartSeries& series, double x, double y) {
-    constexpr double kRadius = 4.5;
+    const double radius = chart_.marker_radius;
     const std::string name = fmt::format("marker marker-{}", series.style);
     if (series.style % 3 == 1) {
       html_.empty("circle",
-                  {{"class", name}, {"cx", number(x)}, {"cy", number(y)}, {"r", number(kRadius)}});
+                  {{"class", name}, {"cx", number(x)}, {"cy", number(y)}, {"r", number(radius)}});
       return;
     }
     html_.empty("rect",
                 {{"class", name},
-                 {"x", number(x - kRadius)},
-                 {"y", number(y - kRadius)},
-                 {"width", number(2 * kRadius)},
-                 {"height", number(2 * kRadius)},
+                 {"x", number(x - radius)},
+                 {"y", number(y - radius)},
+                 {"width", number(2 * radius)},
+                 {"height", number(2 * radius)},
                  {"transform", fmt::format("rotate({} {} {})", series.style % 3 == 2 ? 45 : 0,
                                            number(x), number(y))}});
   }
@@ -228,7 +259,11 @@ class Drawing {
       const double x = series.x[i], y = series.y[i];
       if (!is_shown(x, y)) continue;
       Attributes attributes{{"class", "point"}};
-      if (i < series.point_keys.size()) attributes.push_back({"data-key", series.point_keys[i]});
+      if (i < series.point_keys.size()) {
+        attributes.push_back({"data-key", series.point_keys[i]});
+        attributes.push_back({"data-x", fmt::format("{:.9g}", x)});
+        attributes.push_back({"data-y", fmt::format("{:.9g}", is_zero(y) ? 0 : y)});
+      }
       const Tag group(html_, "g", attributes);
       if (i < series.point_labels.size()) html_.element("title", series.point_labels[i]);
       const std::string name = fmt::format("error-bar marker-{}", series.style);
@@ -238,22 +273,77 @@ class Drawing {
       if (const double half = value(series.y_error, i); half > 0)
         line(name.c_str(), at_x(x), at_y(std::max(y - half, chart_.y.from)), at_x(x),
              at_y(y + half));
-      draw_marker(series, at_x(x), at_y(y));
-      if (i < series.point_names.size()) draw_name(series.point_names[i], at_x(x), at_y(y));
+      // A point that covers another is drawn as a ring around it.
+      const auto close = std::ranges::count_if(marks_, [&](const Mark& other) {
+        return std::abs(other.x - at_x(x)) < 4 && std::abs(other.y - at_y(y)) < 4;
+      });
+      marks_.push_back({at_x(x), at_y(y)});
+      if (close == 0)
+        draw_marker(series, at_x(x), at_y(y));
+      else
+        draw_ring(series, at_x(x), at_y(y),
+                  chart_.marker_radius + 3.0 * double(std::min<long>(close, kMostRings)));
     }
   }
 
+  /// Whether a point without any error lies at the start of the axis.
+  bool is_zero(double y) const { return chart_.y.starts_at_zero && y <= chart_.y.from; }
+
+  void draw_ring(const ChartSeries& series, double x, double y, double radius) {
+    html_.empty("circle", {{"class", fmt::format("marker ring marker-{}", series.style)},
+                           {"cx", number(x)},
+                           {"cy", number(y)},
+                           {"r", number(radius)},
+                           {"fill", "none"}});
+  }
+
+  void draw_names(const ChartSeries& series) {
+    if (!series.markers) return;
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.point_names.size()); ++i)
+      if (is_shown(series.x[i], series.y[i]))
+        draw_name(series.point_names[i], at_x(series.x[i]), at_y(series.y[i]));
+  }
+
+  /// In the first free place around the point, or farther off with a line to it.
   void draw_name(const std::string& name, double x, double y) {
-    constexpr double kAway = 8, kDown = 14, kLine = 13;
-    const double width = kNameCharacter * text_length(name), at = y + kDown;
-    const bool left = x - kAway - width > kLeft;
-    const double from = left ? x - kAway - width : x + kAway;
-    const bool free = std::ranges::none_of(names_, [&](const Name& other) {
-      return from < other.to && other.from < from + width && std::abs(at - other.y) < kLine;
-    });
-    if (!free || at >= bottom()) return;
-    names_.push_back({from, from + width, at});
-    text("point-name", left ? x - kAway : from, at, left ? "end" : "start", name);
+    constexpr double kAway = 8, kUp = -5, kDown = 14, kHeight = 12;
+    const double width = kNameCharacter * text_length(name);
+    const Name places[] = {
+        {x - kAway - width, x - kAway, y + kDown},     {x + kAway, x + kAway + width, y + kDown},
+        {x + kAway, x + kAway + width, y + kUp},       {x - kAway - width, x - kAway, y + kUp},
+        {x - width / 2, x + width / 2, y + kDown + 4}, {x - width / 2, x + width / 2, y + kUp - 5}};
+    const auto is_free = [&](const Name& place) {
+      const bool outside = place.from < left_ || place.to > right() || place.y > bottom() ||
+                           place.y - kHeight < top_;
+      const auto covers = [&](const Name& other) {
+        return place.from < other.to && other.from < place.to &&
+               std::abs(place.y - other.y) < kHeight + 1;
+      };
+      const auto hides = [&](const Mark& mark) {
+        return place.from < mark.x + 5 && mark.x - 5 < place.to && place.y - kHeight < mark.y + 4 &&
+               mark.y - 4 < place.y;
+      };
+      return !outside && std::ranges::none_of(names_, covers) &&
+             std::ranges::none_of(marks_, hides);
+    };
+    const auto draw_at = [&](const Name& place) {
+      names_.push_back(place);
+      text("point-name", place.from, place.y, "start", name);
+    };
+    for (const Name& place : places)
+      if (is_free(place)) return draw_at(place);
+    constexpr int kDirections = 16;
+    for (double away = 18; away < 90; away += 9)
+      for (int i = 0; i < kDirections; ++i) {
+        const double angle = 2 * kPi * (i + 0.5) / kDirections, across = std::cos(angle),
+                     down = std::sin(angle);
+        const double middle = x + away * across + width / 2 * across, height = y + away * down;
+        const Name place{middle - width / 2, middle + width / 2, height + kHeight / 3};
+        if (!is_free(place)) continue;
+        line("leader", x + chart_.marker_radius * across, y + chart_.marker_radius * down,
+             middle - width / 2 * across, height - 6 * down);
+        return draw_at(place);
+      }
   }
 
   bool is_shown(double x, double y) const {
@@ -278,31 +368,59 @@ class Drawing {
     html_.element("title", series.label);
   }
 
-  void draw_legend() {
-    double x = kLeft;
+  /// Where each series is named, and last how far down the legend goes. A full line goes on in the next.
+  std::vector<Mark> legend_places() const {
+    std::vector<Mark> places;
+    double x = kLeft, y = 0;
     for (const ChartSeries& series : chart_.series) {
+      const double width = 44 + kCharacter * text_length(series.label) + 28;
+      if (x > kLeft && x + width - 28 > chart_.width) x = kLeft, y += kLine;
+      places.push_back({x, y});
+      x += width;
+    }
+    places.push_back({x, y});
+    return places;
+  }
+
+  void draw_legend() {
+    const std::vector<Mark> places = legend_places();
+    for (std::size_t i = 0; i < chart_.series.size(); ++i) {
+      const ChartSeries& series = chart_.series[i];
+      const auto [x, y] = places[i];
       const LineStyle& style = line_style(series);
       if (series.markers)
-        draw_marker(series, x + 18, 14);
+        draw_marker(series, x + 18, y + 14);
       else
         html_.empty("line", {{"class", style.name},
                              {"x1", number(x)},
-                             {"y1", "14"},
+                             {"y1", number(y + 14)},
                              {"x2", number(x + 36)},
-                             {"y2", "14"},
+                             {"y2", number(y + 14)},
                              {"stroke-dasharray", style.dashes},
                              {"stroke-width", style.width}});
-      text("legend", x + 44, 18, "start", series.label);
-      x += 44 + kCharacter * text_length(series.label) + 28;
+      text("legend", x + 44, y + 18, "start", series.label);
     }
   }
 
-  struct Name {
-    double from, to, y;
-  };
+  /// In lines that fit into `room`.
+  static std::vector<std::string> wrapped(const std::string& words, double room) {
+    std::vector<std::string> lines(1);
+    for (std::size_t at = 0; at < words.size();) {
+      const std::size_t end = std::min(words.find(' ', at), words.size());
+      const std::string word = words.substr(at, end - at);
+      const bool fits = kCharacter * (text_length(lines.back()) + 1 + text_length(word)) <= room;
+      if (!lines.back().empty() && !fits && lines.size() < kMostLines) lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + word;
+      at = end + 1;
+    }
+    return lines;
+  }
 
   const Chart& chart_;
   Html html_;
+  double left_ = kLeft, top_ = kTop, bottom_ = 0;
+  std::vector<std::string> x_label_, y_label_;
+  std::vector<Mark> marks_;  ///< points that are drawn
   std::vector<Name> names_;  ///< of points, drawn so far
 };
 

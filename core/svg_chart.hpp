@@ -28,6 +28,7 @@ struct ChartAxis {
   double from = 0, to = 1;
   bool logarithmic = false;        ///< then from > 0
   std::vector<double> ticks = {};  ///< values with labels; empty: round numbers
+  bool starts_at_zero = false;     ///< of a logarithmic axis: its start is labelled 0
 };
 
 struct ChartBand {
@@ -43,7 +44,7 @@ struct ChartSeries {
   /// For markers: half lengths of error bars, and tooltips. Empty, or one for each point.
   std::vector<double> x_error = {}, y_error = {};
   std::vector<std::string> point_labels = {};
-  /// Drawn below and left of each point, unless it would overlap an earlier name.
+  /// Drawn beside each point, or farther off with a line to it, where there is room; those of later series first.
   std::vector<std::string> point_names = {};
   std::vector<std::string> point_keys = {};  ///< "data-key", the point's key for scripts
 };
@@ -53,6 +54,7 @@ struct Chart {
   std::string title;  ///< for screen readers; drawn only in a file of its own
   std::string description;
   int width = 1200, height = 360;
+  double marker_radius = 4.5;
   ChartAxis x, y;
   std::vector<ChartBand> bands;
   std::vector<ChartSeries> series;

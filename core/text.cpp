@@ -63,6 +63,35 @@ std::string escaped(const Character& character) {
                   : fmt::format("\\u{:04x}", character.code);
 }
 
+/// Words of other programs, and ours for the same.
+constexpr std::pair<std::string_view, std::string_view> kOtherWords[] = {
+    {"phong", "phong_rdf"},
+    {"phong", "modified_phong"},
+    {"blinn", "blinn_phong_rdf"},
+    {"blinn", "modified_blinn_phong"},
+    {"blinn_phong", "blinn_phong_rdf"},
+    {"blinn_phong", "modified_blinn_phong"},
+    {"blinn-phong", "modified_blinn_phong"},
+    {"ggx", "microfacet_smith"},
+    {"cos", "cosine"},
+    {"gaussian", "gauss"},
+    {"camera", "sensor"},
+    {"light", "emitter"},
+    {"material", "bsdf"},
+    {"brdf", "bsdf"},
+    {"sphere", "shape"},
+    {"plane", "shape"},
+    {"object", "shape"},
+    {"color", "rgb"},
+    {"colour", "rgb"},
+    {"spectrum", "rgb"},
+    {"int", "integer"},
+    {"double", "float"},
+    {"shininess", "exponent"},
+    {"glossiness", "exponent"},
+    {"spp", "samples"},
+};
+
 template <class Number>
 bool parse_whole(std::string_view text, Number& value) {
   text = trim(text);
@@ -94,7 +123,7 @@ std::string closest(std::string_view word, std::span<const std::string_view> can
   std::string_view best;
   std::size_t best_distance = 0;
   for (const auto candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = edit_distance(lower_case(word), lower_case(candidate));
     if (best.empty() || distance < best_distance) {
       best = candidate;
       best_distance = distance;
@@ -105,8 +134,13 @@ std::string closest(std::string_view word, std::span<const std::string_view> can
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
-  const std::string suggestion = closest(word, candidates);
-  return suggestion.empty() ? "" : "; did you mean '" + suggestion + "'?";
+  if (const std::string near = closest(word, candidates); !near.empty())
+    return "; did you mean '" + near + "'?";
+  std::string ours;
+  for (const auto& [other, name] : kOtherWords)
+    if (other == word && std::ranges::count(candidates, name) > 0)
+      ours += (ours.empty() ? "'" : " or '") + std::string(name) + "'";
+  return ours.empty() ? "" : "; did you mean " + ours + "?";
 }
 
 std::string lower_case(std::string_view text) {

@@ -9,8 +9,8 @@
 namespace lobelia {
 namespace {
 
-/// oneTBB's, OpenEXR's and our own: each may have a thread for each processor.
-constexpr int kPools = 3;
+/// oneTBB's and our own: each may have a thread for each processor.
+constexpr int kPools = 2;
 /// Threads and processes beside them: the watcher of interrupts, the process that decodes pictures, an engine.
 constexpr int kSpare = 4;
 

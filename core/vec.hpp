@@ -33,6 +33,9 @@ inline Vec3 normalize(Vec3 a) {
 /// The same, but keeps every bit of a unit vector, so that a scene survives writing and reading.
 inline Vec3 as_unit(Vec3 a) { return std::abs(length(a) - 1) < 1e-15 ? a : normalize(a); }
 
+/// The angle between unit vectors, radians, without the cancellation of acos near 0.
+inline double angle_between(Vec3 a, Vec3 b) { return 2 * std::atan2(length(a - b), length(a + b)); }
+
 /// Linear-light RGB, primaries of Rec. 709 (see docs/conventions.md).
 struct Rgb {
   double r = 0, g = 0, b = 0;

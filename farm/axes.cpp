@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/image.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/grid.hpp"
 #include "reference_scenes/engine.hpp"
@@ -106,7 +107,10 @@ AxisValue value_of_file(const std::string& text, const fs::path& directory) {
   const std::string stem = (directory / text).stem().string();
   std::string label = stem;
   std::replace(label.begin(), label.end(), '_', ' ');
-  return {text, label, file_token(stem)};
+  // Other alphabets would all become the same underscores.
+  const bool is_ascii = std::ranges::all_of(stem, [](char c) { return (c & 0x80) == 0; });
+  return {text, label,
+          is_ascii ? file_token(stem) : file_token(stem) + "-" + hex(sha256(stem)).substr(0, 8)};
 }
 
 AxisValue parse_scene_file(const std::string& text, const fs::path& directory) {

@@ -236,6 +236,8 @@ void FarmSession::write_farm_record() const {
   const Grid& grid = work_.grid;
   records::Farm record;
   record.title = grid.title;
+  record.authors = grid.authors;
+  record.url = grid.url;
   record.grid = grid.file_name;
   record.command = shell_join(options_.command);
   record.host = records::this_host();

@@ -53,6 +53,9 @@ struct AxisKind {
 
 std::span<const AxisKind> axis_kinds();
 
+/// All of docs/reference/grid.xsd, by the table that read_grid() checks against.
+std::string grid_schema();
+
 /// The parts of `text` between commas and white space. On the axis of lobes not within the parentheses of a formula.
 std::vector<std::string> split_values(std::string_view axis, std::string_view text);
 
@@ -68,6 +71,7 @@ struct Axis {
 
 struct Grid {
   std::string title;
+  std::string authors, url;                     ///< of the study, for its gallery; may be empty
   std::string file_name;                        ///< without directory
   Scene scene;                                  ///< empty if there is an axis of scenes
   std::vector<Axis> axes;                       ///< at least one, in the file's order

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image.hpp"
+#include "core/shipped_files.hpp"
 #include "core/text.hpp"
 #include "farm/grid_choices.hpp"
 #include "reference_scenes/engine.hpp"
@@ -20,10 +21,61 @@ namespace {
 
 constexpr std::size_t kMaxGridBytes = 1 << 20;
 constexpr std::size_t kMaxParts = 100000000;
-constexpr std::string_view kGridFormatVersion = "1";
-constexpr std::string_view kElements[] = {"scene",   "film",    "axis",   "list",
-                                          "exclude", "include", "engine", "pictures"};
+constexpr std::string_view kGridFormatVersion = "1", kDefaultTitle = "Highlights";
 constexpr std::size_t kMaxEngines = 100;  // a job has the engine's number in a byte
+
+XmlAttribute attribute(std::string_view name, std::string_view default_value,
+                       std::string_view meaning, std::vector<std::string_view> choices = {}) {
+  return {{name, ParameterType::kString, default_value, 0, 0, "", meaning}, std::move(choices)};
+}
+
+std::vector<XmlElement> make_elements() {
+  constexpr Parameter kSides[] = {
+      {"width", ParameterType::kInteger, "", 1, kMaxImageSide, "pixels", "of every picture"},
+      {"height", ParameterType::kInteger, "", 1, kMaxImageSide, "pixels", "of every picture"}};
+  std::vector<std::string_view> axes;
+  std::vector<XmlAttribute> chosen;
+  for (const AxisKind& kind : axis_kinds()) {
+    axes.push_back(kind.name);
+    chosen.push_back(attribute(kind.name, "any", kind.allowed));
+  }
+  std::vector<XmlElement> elements{
+      {"grid",
+       "scenes that vary along axes, and the engines to compare with",
+       {attribute("version", "", "of the format", {kGridFormatVersion}),
+        attribute("title", kDefaultTitle, "of the gallery"),
+        attribute("authors", "none", "of the study, for its gallery: A. Author and B. Author"),
+        attribute("url", "none", "where the study is published, for its gallery: https://..."),
+        attribute("reference", "ours", "the engine that all others are compared with"),
+        attribute("ours", "yes", "whether our picture is compared and shown", {"yes", "no"})},
+       {{{"scene"}, 0, 1},
+        {{"film"}, 0, 1},
+        {{"axis", "list"}, 1},
+        {{"exclude", "include", "engine", "pictures"}}}},
+      {"scene", "the scene that varies", {attribute("file", "", "relative to the grid file")}},
+      {"film", "the size of every picture", {{kSides[0]}, {kSides[1]}}},
+      {"axis",
+       "a setting that varies",
+       {attribute("name", "", "what varies", axes),
+        attribute("values", "", "between commas or blanks")}},
+      {"list", "axes that advance together", {}, {{{"axis"}, 1}}},
+      {"exclude", "takes away every cell that has all of these values", chosen},
+      {"include", "adds one cell; it has a value of every axis of the grid", std::move(chosen)},
+  };
+  for (XmlElement element : outside_elements()) {
+    // The description may be in a file, and then everything else is.
+    for (XmlAttribute& each : element.attributes)
+      if (each.parameter.default_value.empty()) each.parameter.default_value = "in the file";
+    element.attributes.push_back(attribute("file", "none", "a file with an <engine>"));
+    elements.push_back(std::move(element));
+  }
+  return elements;
+}
+
+std::span<const XmlElement> grid_elements() {
+  static const std::vector<XmlElement> elements = make_elements();
+  return elements;
+}
 
 class GridReader {
  public:
@@ -37,13 +89,21 @@ class GridReader {
                                       printable(root.name())));
       source_.throw_if_errors();
     }
-    source_.check_attributes(root, {"version", "title", "reference", "ours"});
+    check_attributes(root);
     if (const auto version = source_.required(root, "version");
         !version.empty() && version != kGridFormatVersion)
       source_.error(root.attribute("version"), root,
                     fmt::format("format version '{}'; this program reads version {}",
                                 printable(version), kGridFormatVersion));
-    grid_.title = root.attribute("title").as_string("Highlights");
+    grid_.title = root.attribute("title").as_string(kDefaultTitle.data());
+    grid_.authors = root.attribute("authors").as_string();
+    grid_.url = root.attribute("url").as_string();
+    if (!grid_.url.empty() && !grid_.url.starts_with("https://") &&
+        !grid_.url.starts_with("http://"))
+      source_.error(
+          root.attribute("url"), root,
+          fmt::format("url '{}'; allowed: an address that begins with https:// or http://",
+                      printable(grid_.url)));
     for (const auto node : root.children())
       if (node.type() == pugi::node_element) read_element(node);
     if (!seen_.contains("scene") && !axis_nodes_.contains("scene"))
@@ -79,10 +139,14 @@ class GridReader {
     }
     if (tag == "list") read_list(node);
     if (tag == "engine" || tag == "pictures") read_engine(node);
-    if (std::find(std::begin(kElements), std::end(kElements), tag) == std::end(kElements))
-      source_.error(node,
-                    fmt::format("unknown element <{}> in <grid>; allowed: {}{}", printable(tag),
-                                join(kElements), did_you_mean(tag, kElements)));
+    if (const auto allowed = grid_elements().front().child_tags();
+        std::ranges::find(allowed, tag) == allowed.end())
+      source_.error(node, fmt::format("unknown element <{}> in <grid>; allowed: {}{}",
+                                      printable(tag), join(allowed), did_you_mean(tag, allowed)));
+  }
+
+  void check_attributes(pugi::xml_node node) {
+    source_.check_attributes(node, find_element(grid_elements(), node.name()).attribute_names());
   }
 
   bool once(pugi::xml_node node) {
@@ -92,7 +156,7 @@ class GridReader {
   }
 
   void read_scene_file(pugi::xml_node node) {
-    source_.check_attributes(node, {"file"});
+    check_attributes(node);
     const std::string file = source_.required(node, "file");
     if (file.empty()) return;
     try {
@@ -105,7 +169,7 @@ class GridReader {
   }
 
   void read_film(pugi::xml_node node) {
-    source_.check_attributes(node, {"width", "height"});
+    check_attributes(node);
     const auto side = [&](const char* name) {
       const std::string text = source_.required(node, name);
       long long value = 1;
@@ -125,7 +189,7 @@ class GridReader {
 
   /// Axes that advance together.
   void read_list(pugi::xml_node node) {
-    source_.check_attributes(node, {});
+    check_attributes(node);
     GridFactor factor;
     std::string_view first;
     for (const auto child : node.children()) {
@@ -166,7 +230,7 @@ class GridReader {
 
   /// Adds the axis to the factor. In a list a value may stand more than once. False if there is no such axis.
   bool read_axis(pugi::xml_node node, GridFactor& factor, bool in_list) {
-    source_.check_attributes(node, {"name", "values"});
+    check_attributes(node);
     const std::string name = source_.required(node, "name");
     const std::string values = source_.required(node, "values");
     if (name.empty() || values.empty()) return false;
@@ -369,7 +433,10 @@ class GridReader {
 
 }  // namespace
 
-Grid read_grid(const std::filesystem::path& path) {
+std::string grid_schema() { return xml_schema(grid_elements()); }
+
+Grid read_grid(const std::filesystem::path& named) {
+  const std::filesystem::path path = or_shipped(named);
   XmlSource source(read_file(path, kMaxGridBytes), path.string(), kMaxGridBytes);
   Grid grid = GridReader(source, path.parent_path()).read();
   grid.file_name = path.filename().string();

@@ -55,13 +55,16 @@ Content find_libraries() {
   FileHashes& hashes = FileHashes::of_user();
   ContentReader reader(hashes);
   const std::string loader = find_loader();
-  const fs::path program = own_file();
-  const fs::path module = companion_file(kImageIoModuleFile);
-  const fs::path picture_reader = companion_file(kReaderFile);
-  for (const fs::path& own : {module, picture_reader})
-    reader.add("library", own.filename().native(), own);
+  std::vector<fs::path> files;
+  // The other modules have no part in a result.
+  for (const char* own :
+       {image_io_module.file(), colour_module.file(), embree_module.file(), kReaderFile}) {
+    files.push_back(companion_file(own));
+    reader.add("library", own, files.back());
+  }
+  files.push_back(own_file());
   if (!loader.empty())
-    for (const fs::path& file : {program, module, picture_reader})
+    for (const fs::path& file : files)
       for (const fs::path& library : libraries_of(loader, file))
         reader.add("library", library.filename().native(), library);
   hashes.save();

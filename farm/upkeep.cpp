@@ -318,15 +318,16 @@ std::uint64_t parse_size(const std::string& text) {
   const auto fail = [&]() -> std::uint64_t {
     throw Error(
         ExitCode::kUsage,
-        fmt::format("size '{}'; allowed: a number and B, K, M, G or T (of 1024), such as 10G",
-                    printable(text)));
+        fmt::format(
+            "size '{}'; allowed: 0, or a number with B, K, M, G or T (of 1024), such as 10G",
+            printable(text)));
   };
   constexpr std::string_view kUnits = "BKMGT";
   std::string number = text;
   if (number.size() > 1 && (number.back() == 'B' || number.back() == 'b') &&
       !std::isdigit(static_cast<unsigned char>(number[number.size() - 2])))
     number.pop_back();
-  double scale = 1;
+  double scale = 0;  // a number alone would be bytes, which nobody means
   if (const auto last = static_cast<unsigned char>(number.empty() ? '0' : number.back());
       std::isalpha(last)) {
     const auto unit = kUnits.find(char(std::toupper(last)));
@@ -337,6 +338,7 @@ std::uint64_t parse_size(const std::string& text) {
   while (number.ends_with(' ')) number.pop_back();
   double value = 0;
   if (!parse_number(number, value) || !(value >= 0) || value * scale > 1e18) return fail();
+  if (value > 0 && scale == 0) return fail();
   return std::uint64_t(value * scale);
 }
 

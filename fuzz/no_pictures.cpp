@@ -1,5 +1,4 @@
 // Replaces core's reading of pictures, which needs a process of its own: no picture can be read.
-#include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 
@@ -10,8 +9,5 @@ Picture read_picture(const std::filesystem::path& path, const std::string&, cons
 }
 
 Image read_image(const std::filesystem::path& path) { return read_picture(path, "", {}).image; }
-
-// core/colour.cpp needs OpenColorIO.
-void decode_srgb(Image&) {}
 
 }  // namespace lobelia

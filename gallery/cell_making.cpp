@@ -8,10 +8,14 @@
 namespace lobelia::gallery {
 namespace {
 
-void write_file_link(Html& html, const std::string& file, const std::string& what) {
+void write_file_link(Html& html, const SiteFrame& site, const std::string& file,
+                     const std::string& what) {
   if (file.empty()) return;
   const Tag item(html, "li");
-  html.element("a", {{"href", link_to({file})}}, file);
+  if (site.is_packed)
+    html.element("code", file);
+  else
+    html.element("a", {{"href", link_to({file})}}, file);
   html.text(" " + what);
 }
 
@@ -52,7 +56,8 @@ void write_facts(Html& html, const records::FarmEngine& engine, const EnginePict
   }
 }
 
-void write_engine(Html& html, const records::FarmEngine& engine, const EnginePicture* image) {
+void write_engine(Html& html, const SiteFrame& site, const records::FarmEngine& engine,
+                  const EnginePicture* image) {
   const Tag block(html, "div", {{"class", "engine"}});
   html.element("h3", engine.title);
   if (!image) {
@@ -83,9 +88,9 @@ void write_engine(Html& html, const records::FarmEngine& engine, const EnginePic
                  image->exr_sha256);
   }
   const Tag files(html, "ul", {{"class", "files"}});
-  write_file_link(html, image->exr, "linear float picture");
-  write_file_link(html, image->record, "record");
-  write_file_link(html, image->log, "the engine’s own output");
+  write_file_link(html, site, image->exr, "linear float picture");
+  write_file_link(html, site, image->record, "record");
+  write_file_link(html, site, image->log, "the engine’s own output");
 }
 
 /// Of a report: where each picture comes from, and how to compare them again.
@@ -102,27 +107,34 @@ void write_origins(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
 
 }  // namespace
 
-void write_making(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+void write_making(Html& html, const SiteFrame& site, const ShownFarm& farm,
+                  const CheckedCell& cell) {
   if (farm.is_report) return write_origins(html, farm, cell);
   const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
   if (cell.has_record) {
     html.element("h2", {{"id", "making"}}, "How each picture was made");
     for (const records::FarmEngine& engine : farm.record.engines)
-      write_engine(html, engine, cell.find_image(engine.name));
+      write_engine(html, site, engine, cell.find_image(engine.name));
     html.element("h3", "Files of the cell");
   } else {
     html.element("h2", {{"id", "making"}}, "Files of the cell");
   }
+  if (site.is_packed)
+    html.element(
+        "p",
+        "This small site has no copies of them. They are in the farm’s own directory, in cells/" +
+            cell.id + ".");
   const Tag files(html, "ul", {{"class", "files"}});
   if (cell.has_scene)
-    write_file_link(html, "scene.xml", "the scene, complete");
+    write_file_link(html, site, "scene.xml", "the scene, complete");
   else
     html.element("li", "The scene file is not there, or not as the farm wrote it.");
   if (!cell.has_record) return;
-  write_file_link(html, "cell.json", "what belongs to the cell");
+  write_file_link(html, site, "cell.json", "what belongs to the cell");
   for (const CheckedComparison& comparison : cell.comparisons)
-    if (comparison.problem.empty()) write_file_link(html, comparison.entry.record, "comparison");
-  if (cell.profile) write_file_link(html, cell.record.profile, "profile");
+    if (comparison.problem.empty())
+      write_file_link(html, site, comparison.entry.record, "comparison");
+  if (cell.profile) write_file_link(html, site, cell.record.profile, "profile");
 }
 
 }  // namespace lobelia::gallery

@@ -1,8 +1,12 @@
 #include "gallery/cell_page.hpp"
+#include "gallery/cell_changes.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/numbers.hpp"
+#include "gallery/views.hpp"
 #include "records/words.hpp"
 
 namespace lobelia::gallery {
@@ -10,8 +14,8 @@ namespace {
 
 constexpr int kShownEachSide = 5;  // values of a long axis before and after the cell's own
 
-std::string neighbour_link(const CellEntry& cell) {
-  return "../" + link_to({cell.id, "index.html"});
+std::string neighbour_link(const SiteFrame& site, const CellEntry& cell) {
+  return site.is_packed ? cell_link(site, cell.id) : "../" + link_to({cell.id, "index.html"});
 }
 
 const CellEntry* cell_beside(const ShownFarm& farm, const CellEntry& entry, int axis, int value) {
@@ -21,7 +25,8 @@ const CellEntry* cell_beside(const ShownFarm& farm, const CellEntry& entry, int 
   return farm.find_cell(at);
 }
 
-void write_step(Html& html, const ShownFarm& farm, const CellEntry& entry, int axis, int step) {
+void write_step(Html& html, const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
+                int axis, int step) {
   const std::string arrow = step < 0 ? "←" : "→";
   const CellEntry* cell = cell_beside(farm, entry, axis, entry.at[axis] + step);
   if (!cell) return html.element("span", {{"class", "step"}, {"aria-hidden", "true"}}, arrow);
@@ -29,20 +34,21 @@ void write_step(Html& html, const ShownFarm& farm, const CellEntry& entry, int a
                             ": " + farm.record.axes[axis].values[cell->at[axis]].label;
   html.element("a",
                {{"class", "step"},
-                {"href", neighbour_link(*cell)},
+                {"href", neighbour_link(site, *cell)},
                 {"rel", step < 0 ? "prev" : "next"},
                 {"aria-label", words},
                 {"title", words}},
                arrow);
 }
 
-void write_axis(Html& html, const ShownFarm& farm, const CellEntry& entry, int axis) {
+void write_axis(Html& html, const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
+                int axis) {
   const records::Axis& a = farm.record.axes[axis];
   const int here = entry.at[axis];
   const Tag row(html, "div", {{"class", "axis-row"}});
   html.element("span", {{"class", "axis-name"}}, a.name);
-  write_step(html, farm, entry, axis, -1);
-  write_step(html, farm, entry, axis, +1);
+  write_step(html, site, farm, entry, axis, -1);
+  write_step(html, site, farm, entry, axis, +1);
   const Tag list(html, "ul");
   const int count = static_cast<int>(a.values.size());
   const int from = std::max(0, here - kShownEachSide),
@@ -53,17 +59,18 @@ void write_axis(Html& html, const ShownFarm& farm, const CellEntry& entry, int a
     if (value == here) {
       html.element("span", {{"aria-current", "true"}}, a.values[value].label);
     } else if (cell) {
-      html.element("a", {{"href", neighbour_link(*cell)}}, a.values[value].label);
+      html.element("a", {{"href", neighbour_link(site, *cell)}}, a.values[value].label);
     } else {
       html.element("span", {{"class", "absent"}}, a.values[value].label);
     }
   }
 }
 
-void write_navigation(Html& html, const ShownFarm& farm, const CellEntry& entry) {
+void write_navigation(Html& html, const SiteFrame& site, const ShownFarm& farm,
+                      const CellEntry& entry) {
   const Tag nav(html, "nav", {{"class", "axes"}, {"aria-label", "Neighbouring cells"}});
   for (int axis = 0; axis < static_cast<int>(farm.record.axes.size()); ++axis)
-    if (entry.at[axis] >= 0) write_axis(html, farm, entry, axis);
+    if (entry.at[axis] >= 0) write_axis(html, site, farm, entry, axis);
 }
 
 std::string time_text(const EnginePicture* image) {
@@ -119,6 +126,20 @@ void write_flaws(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   write_command(html, farm.record.command);
 }
 
+/// Why each comparison came out as it did.
+void write_stories(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+  if (farm.is_report || cell.comparisons.empty()) return;
+  const Tag list(html, "ul", {{"class", "stories"}});
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    const std::string engine = farm.engine_title(cell.other_of(comparison));
+    const std::string story = story_of(comparison, engine);
+    if (story.empty()) continue;
+    const Tag item(html, "li");
+    html.element("strong", engine);
+    html.text(" " + story);
+  }
+}
+
 /// What an artist would say of each highlight, and the limits that are broken.
 void write_findings(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   for (const CheckedComparison& comparison : cell.comparisons) {
@@ -129,7 +150,20 @@ void write_findings(Html& html, const ShownFarm& farm, const CheckedCell& cell) 
   }
 }
 
-void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+/// One line; the section below has the rest.
+void write_change(Html& html, const History& history, const CellHistory& past) {
+  const Tag line(html, "p");
+  const ChangeInfo& change = info(past.change.change);
+  {
+    const Tag mark(html, "span", {{"class", fmt::format("status {}", change.name)}});
+    html.element("span", {{"aria-hidden", "true"}}, change.mark);
+  }
+  html.text(" " + change_sentence(history, past.change) + " ");
+  html.element("a", {{"href", "#changes"}}, "What changed");
+}
+
+void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell,
+                   const History& history, const std::optional<CellHistory>& past) {
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
     const Tag line(html, "p");
@@ -137,6 +171,7 @@ void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
     html.text(" ");
     html.text(farm.is_report ? info(cell.status).of_pair : info(cell.status).meaning);
   }
+  if (past) write_change(html, history, *past);
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
   write_flaws(html, farm, cell);
   write_findings(html, farm, cell);
@@ -157,47 +192,71 @@ void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   }
 }
 
-void write_highlight(Html& html, const CheckedCell& cell) {
+void write_highlight(Html& html, const SiteFrame& site, const CheckedCell& cell) {
   if (!cell.record.highlight) return;
-  const Tag list(html, "dl", {{"class", "facts"}});
-  for (const auto& [name, value] : words_of(*cell.record.highlight)) write_fact(html, name, value);
+  const records::Highlight& highlight = *cell.record.highlight;
+  {
+    const Tag list(html, "dl", {{"class", "facts"}});
+    for (const auto& [name, value] : words_of(highlight)) write_fact(html, name, value);
+  }
+  // The explorer has no lobes by a formula.
+  const std::string explorer(explorer_view.file);
+  if (!highlight.formula.empty() || !std::ranges::count(site.pages, explorer, &PageLink::file))
+    return;
+  const Tag line(html, "p");
+  html.element("a",
+               {{"href", fmt::format("{}{}#model={}&lobe={}&norm={}&n={}&two=0",
+                                     site.is_packed ? "" : "../../", explorer,
+                                     link_to({highlight.model}), link_to({highlight.lobe}),
+                                     link_to({highlight.normalisation}), highlight.exponent)}},
+               "Open in the explorer");
 }
 
 }  // namespace
 
-std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
-                      const CheckedCell& cell) {
-  const std::string title = entry.label.empty() ? entry.id : entry.label;
+Html cell_main(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
+               const CheckedCell& cell, const History& history,
+               const std::optional<CellHistory>& past) {
   Html html;
+  if (cell.has_record)
+    html.element("a", {{"class", "skip"}, {"href", "#pictures"}}, "Skip to the pictures");
+  html.element("h1", entry.title());
   {
-    const Tag header(html, "header");
-    html.element("h1", title);
-    const Tag columns(html, "div", {{"class", "cell-head"}});
+    // On a phone in this order; on a desktop the pictures are below the rest (style/cell.css).
+    const Tag top(html, "div", {{"class", "cell-top"}});
+    write_navigation(html, site, farm, entry);
+    if (cell.has_record) write_pictures(html, farm, cell);
     {
-      const Tag left(html, "div");
-      write_navigation(html, farm, entry);
-      write_highlight(html, cell);
+      const Tag verdict(html, "div", {{"class", "judgement"}});
+      write_verdict(html, farm, cell, history, past);
     }
-    const Tag right(html, "div");
-    write_verdict(html, farm, cell);
+    const Tag why(html, "div", {{"class", "why"}});
+    write_highlight(html, site, cell);
+    write_stories(html, farm, cell);
   }
+  if (past) write_cell_changes(html, farm, history, cell, *past);
   if (cell.has_record) {
-    write_pictures(html, farm, cell);
-    if (!farm.is_report) write_profile(html, farm, cell);
+    if (!farm.is_report) write_profile(html, site, farm, cell);
     write_numbers(html, farm, cell);
     if (!farm.is_report) write_plan(html, cell);
   }
-  write_making(html, farm, cell);
+  write_making(html, site, farm, cell);
+  return html;
+}
+
+std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
+                      const CheckedCell& cell, const History& history,
+                      const std::optional<CellHistory>& past) {
   const std::string folder = link_to({"cells", entry.id}) + "/";
   const EnginePicture* ours = cell.find_image(farm.hub);
-  const PageFrame frame{title,
+  const PageFrame frame{entry.title(),
                         "cell",
                         "../../",
                         folder + "index.html",
                         cell.made_by.empty() ? farm.made_by : cell.made_by,
                         kCellData,
                         ours && ours->png.shown() ? folder + link_to({ours->png.file}) : ""};
-  return finish_page(site, frame, html);
+  return finish_page(site, frame, cell_main(site, farm, entry, cell, history, past));
 }
 
 }  // namespace lobelia::gallery

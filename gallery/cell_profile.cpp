@@ -237,13 +237,16 @@ std::vector<records::ShownZone> zones_of(const records::Profile& profile) {
           {"blooming zone", blooming[0], blooming[1]}};
 }
 
-void write_profile(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+void write_profile(Html& html, const SiteFrame& site, const ShownFarm& farm,
+                   const CheckedCell& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "profile"}});
   html.element("h2", {{"id", "profile"}}, "The highlight as a curve");
   if (cell.record.profile.empty()) return write_absence(html, "This cell has no profile.");
   if (!cell.profile) return write_absence(html, cell.profile_problem);
   const records::Profile& profile = *cell.profile;
-  write_curves(html, farm, profile);
+  // A page that needs its script has the curves by it.
+  const bool has_curves = !profile.curve.angle_degrees.empty() && !profile.curve.radiance.empty();
+  if (!site.is_packed || !has_curves) write_curves(html, farm, profile);
   const Tag tables(html, "div", {{"class", "side-by-side"}});
   if (!profile.images.empty()) {
     std::vector<FigureRow> rows;

@@ -50,6 +50,18 @@ std::vector<std::string> reasons_of(const ShownFarm& farm, const CheckedCell& ce
 
 }  // namespace
 
+records::Named<double> limits_of(const records::Comparison& comparison) {
+  records::Named<double> limits;
+  if (comparison.tolerance)
+    limits.emplace_back("max_rel_peak",
+                        comparison.tolerance->relative + comparison.tolerance->of_peak);
+  for (const records::Limit& limit : comparison.limits) {
+    std::erase_if(limits, [&](const auto& one) { return one.first == limit.metric; });
+    limits.emplace_back(limit.metric, limit.limit);
+  }
+  return limits;
+}
+
 std::vector<std::string> broken_limits(const ShownFarm& farm, const CheckedComparison& comparison) {
   std::vector<std::string> sentences;
   for (const records::Limit& limit : comparison.record.limits)
@@ -66,7 +78,10 @@ CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const Check
   summary.status = cell.status;
   summary.is_as_written =
       !is_flaw(cell.status) && cell.status != CellStatus::kUnsealed && cell.contradictions.empty();
-  if (const EnginePicture* ours = cell.find_image(farm.hub)) summary.picture = ours->png;
+  if (const EnginePicture* ours = cell.find_image(farm.hub)) {
+    summary.picture = ours->png;
+    if (!cell.thumbnail.file.empty()) summary.picture.small = cell.thumbnail;
+  }
   for (const records::FarmEngine& engine : farm.record.engines) {
     if (engine.name == farm.hub || !engine.available) continue;
     summary.figures.push_back(figure(farm, engine, cell));
@@ -83,8 +98,27 @@ CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const Check
     for (const auto& metric : comparison.record.metrics)
       if (!is_coordinate(metric.first)) numbers.push_back(metric);
     summary.metrics.emplace_back(cell.other_of(comparison), std::move(numbers));
+    summary.limits.emplace_back(cell.other_of(comparison), limits_of(comparison.record));
+    const double* limit = records::find(summary.limits.back().second, "max_rel_peak");
+    const auto difference = comparison.metric("max_rel_peak");
+    if (!limit || !difference) continue;
+    const NearestToLimit one{cell.other_of(comparison), *difference, *limit, comparison.png};
+    if (summary.nearest.engine.empty() || one.share() > summary.nearest.share())
+      summary.nearest = one;
   }
   if (summary.status != CellStatus::kPass) summary.reasons = reasons_of(farm, cell);
+  return summary;
+}
+
+CellSummary publish_with_history(const ShownFarm& farm, const History& history,
+                                 const CellEntry& entry, const CheckedCell& cell,
+                                 const std::function<void(std::optional<CellHistory>&)>& write) {
+  std::optional<CellHistory> past;
+  if (!history.empty())
+    past = history_of(history, farm, std::size_t(&entry - farm.cells.data()), cell);
+  write(past);
+  CellSummary summary = summarise(farm, entry, cell);
+  if (past) summary.change = std::move(past->change);
   return summary;
 }
 

@@ -71,8 +71,8 @@ std::string without_directory(std::string message, const fs::path& directory) {
 /// Reads the files that cell.json names, unless they have a flaw; adds every flaw to the cell.
 class CellReader {
  public:
-  CellReader(fs::path directory, CheckedCell& cell)
-      : directory_(std::move(directory)), cell_(cell) {}
+  CellReader(fs::path directory, const Scrub* scrub, CheckedCell& cell)
+      : directory_(std::move(directory)), scrub_(scrub), cell_(cell) {}
 
   void read();
 
@@ -89,6 +89,7 @@ class CellReader {
   std::string read_named(const std::string& file, T& record, std::string* made_by = nullptr);
 
   fs::path directory_;
+  const Scrub* scrub_;
   std::map<std::string, std::string> hashes_;  ///< SHA-256 in cell.json, by file name
   CheckedCell& cell_;
 };
@@ -145,7 +146,8 @@ std::string CellReader::read_named(const std::string& file, T& record, std::stri
   if (use(file).empty()) return flaw_of(file)->message;
   try {
     records::Origin origin;
-    record = records::read_record<T>(directory_ / file, &origin);
+    const fs::path path = directory_ / file;
+    record = read_scrubbed<T>(path, scrub_, path.string(), &origin);
     if (made_by) *made_by = origin.made_by;
     return "";
   } catch (const Error& error) {
@@ -222,7 +224,7 @@ const CheckedComparison* CheckedCell::find_comparison(const std::string& other) 
 }
 
 CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const Metrics& metrics,
-                       const std::string& hub) {
+                       const std::string& hub, const Scrub* scrub) {
   const fs::path here = directory / "cells" / entry.id;
   CheckedCell cell;
   cell.id = entry.id;
@@ -236,11 +238,12 @@ CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const 
   records::Origin origin;
   try {
     CheckedCell whole = cell;
-    whole.record = records::read_record<records::Cell>(here / "cell.json", &origin);
+    const fs::path file = here / "cell.json";
+    whole.record = read_scrubbed<records::Cell>(file, scrub, file.string(), &origin);
     if (origin.seal != records::Origin::Seal::kBroken) {
       whole.is_sealed = origin.seal == records::Origin::Seal::kFits;
       whole.made_by = origin.made_by;
-      CellReader(here, whole).read();
+      CellReader(here, scrub, whole).read();
       whole.has_record = true;
       judge_cell(whole, metrics);
       return whole;

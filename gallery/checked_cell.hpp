@@ -63,6 +63,7 @@ struct CheckedCell {
   std::optional<records::Profile> profile;
   std::string profile_problem;  ///< why the profile cannot be read
   bool has_scene = false;
+  SmallPicture thumbnail = {};  ///< made by the gallery
 
   const EnginePicture* find_image(const std::string& engine) const;
   /// The engine that a comparison has besides the hub.
@@ -73,9 +74,10 @@ struct CheckedCell {
 };
 
 /// Reads DIR/cells/ID/cell.json and every file it names, and judges the cell again. Files with a flaw are not used.
-/// `entry` is the cell's line in farm.json, `hub` is ShownFarm::hub.
+/// `entry` is the cell's line in farm.json, `hub` is ShownFarm::hub, `scrub` ShownFarm::scrub.
 CheckedCell check_cell(const std::filesystem::path& directory, const CellEntry& entry,
-                       const Metrics& metrics, const std::string& hub = kOurEngine);
+                       const Metrics& metrics, const std::string& hub = kOurEngine,
+                       const Scrub* scrub = nullptr);
 
 /// Plain names of all files of the cell's directory that its page may show or link to.
 std::vector<std::string> files_of(const CheckedCell& cell);

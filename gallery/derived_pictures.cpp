@@ -1,9 +1,9 @@
 #include "gallery/derived_pictures.hpp"
 
-#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "gallery/half_picture.hpp"
 #include "gallery/page.hpp"
+#include "gallery/unless_input.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -11,11 +11,7 @@ namespace lobelia::gallery {
 const std::optional<Image>& CellPictures::of(const std::string& file) {
   const auto [place, is_new] = pictures_.try_emplace(file);
   if (!is_new) return place->second;
-  try {
-    place->second = read_image(directory_ / file);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-  }
+  place->second = unless_input([&] { return std::optional(read_image(directory_ / file)); });
   return place->second;
 }
 

@@ -102,7 +102,7 @@ void publish_difference_maps(CellPictures& pictures, const GalleryOptions& optio
       if (publisher.derive(folder + file, key, [&] {
             return script_of(kind, viewing, pictures.of(a->exr), pictures.of(b->exr), bytes);
           }))
-        comparison.maps.push_back({kind.id, kind.title, kind.meaning, file});
+        comparison.maps.push_back({kind.id, kind.title, kind.meaning, file, kind.top});
     }
   }
 }

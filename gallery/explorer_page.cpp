@@ -8,6 +8,7 @@
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
 #include "gallery/page.hpp"
+#include "gallery/page_text.hpp"
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 #include "records/words.hpp"
@@ -77,6 +78,9 @@ void require_drawable(const HighlightTables& tables) {
           "perOctave must divide the exponents into octaves");
   require(tables.most_grazing > 0 && tables.most_grazing < 1.5708,
           "mostGrazing must be an angle below a right one");
+  for (const ModelTable& model : tables.models)
+    require(model.weights.size() == 4 && model.s_max > 0 && model.s_max <= 1,
+            "a model must have 4 weights and an sMax of 0 to 1");
   for (const LobeTable& lobe : tables.lobes) {
     require_unit(lobe.unit);
     require_positive(lobe.reach, count);
@@ -89,6 +93,10 @@ void require_drawable(const HighlightTables& tables) {
     require_rows(highlight.seen, count, width_of(highlight.seen));
     if (!highlight.paper.empty()) require_positive(highlight.paper, count);
     if (!highlight.lit.empty()) require_rows(highlight.lit, count, width_of(highlight.seen));
+    for (const auto* shader : {&highlight.shader, &highlight.paper_shader})
+      for (const std::int64_t part : *shader)
+        require(part >= 0 && part < std::int64_t(tables.shader_parts.size()),
+                "a shader has a part that is not in shaderParts");
   }
 }
 
@@ -169,10 +177,18 @@ Chart lobe_chart(const HighlightTables& tables, std::size_t at) {
   return chart;
 }
 
+/// The title of a model or a lobe.
+template <class T>
+std::string title_of(const std::vector<T>& all, const std::string& name) {
+  const auto one = std::ranges::find(all, name, &T::name);
+  return one == all.end() ? name : one->title;
+}
+
 Chart albedo_chart(const HighlightTables& tables, std::size_t at, const std::string& lobe) {
   const double n = tables.exponents[at];
   Chart chart{.id = "albedos",
-              .title = fmt::format("Energy over incidence, {} at n = {}", lobe, number_text(n, 4)),
+              .title = fmt::format("Energy over incidence, {} at n = {}",
+                                   title_of(tables.lobes, lobe), number_text(n, 4)),
               .description = "What leaves of a beam, over its incidence, for every model.",
               .width = 760,
               .height = 400,
@@ -208,7 +224,7 @@ void write_lobes(Html& html, const HighlightTables& tables) {
   for (const LobeTable& lobe : tables.lobes) {
     const Tag row(html, "tr");
     html.element("th", {{"scope", "row"}}, lobe.title);
-    html.element("td", lobe.formula);
+    math_element(html, "td", lobe.formula);
     for (const std::size_t index : at)
       html.element("td", {{"class", "number"}}, degrees_text(lobe.half_width[index] / kDegree));
   }
@@ -227,8 +243,8 @@ void write_highlights(Html& html, const HighlightTables& tables, std::size_t at)
     const double most_seen = albedo_of(one, std::ranges::max(one.seen[at]));
     const double most_lit = std::ranges::max(beam_of(one, at, incidences));
     const Tag row(html, "tr");
-    html.element("th", {{"scope", "row"}}, one.model);
-    html.element("td", one.lobe);
+    html.element("th", {{"scope", "row"}}, title_of(tables.models, one.model));
+    html.element("td", title_of(tables.lobes, one.lobe));
     for (const std::string& text :
          {number_text(one.exact[at], 5), one.paper.empty() ? "–" : number_text(one.paper[at], 5),
           number_text(albedo_of(one, one.seen[at].back()), 4), number_text(most_seen, 4),
@@ -251,7 +267,10 @@ void take_differences(Rows& rows) {
 }
 
 records::ExplorerPage page_data(HighlightTables tables) {
+  for (records::ModelTable& model : tables.models)
+    model.coefficient = math_text(model.coefficient), model.angle = math_text(model.angle);
   for (LobeTable& lobe : tables.lobes) {
+    lobe.formula = math_text(lobe.formula);
     round_all(lobe.reach);
     round_all(lobe.half_width);
     take_differences(lobe.curves);
@@ -271,8 +290,8 @@ void draw(ViewPage& page, const HighlightTables& tables) {
   Html& html = page.main;
   write_lead(
       html, kTitle,
-      "A lobe, a model, a normalisation, an exponent: what the highlight looks like, what stands before "
-      "it, and how much of the light it reflects. The numbers are those of the renderer's own formulas.");
+      "Choose a model, a lobe, a normalisation and an exponent. See the highlight on a sphere, its curve, its "
+      "coefficient, its cost and how much of the light it reflects, alone or beside another.");
   html.element("div", {{"id", "explorer"}}, "");
   {
     const Tag section(html, "section", {{"class", "without-script"}});
@@ -308,7 +327,7 @@ void draw(ViewPage& page, const HighlightTables& tables) {
   page.data = records::record_line(page_data(tables));
 }
 
-std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const RunFiles& run) {
   return record_page<HighlightTables>(run, kRecord, kTitle, draw);
 }
 

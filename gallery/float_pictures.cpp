@@ -5,11 +5,6 @@
 #include "gallery/half_picture.hpp"
 
 namespace lobelia::gallery {
-namespace {
-
-constexpr char kFormat[] = "float picture 2";  // a new number makes all scripts anew
-/// For all float pictures of a cell of 512 x 512 pixels; a larger one has more in proportion.
-constexpr std::size_t kFloatPictureBytes = 416 << 10;
 
 Image difference(const Image& theirs, const Image& ours) {
   Image result = theirs;
@@ -17,19 +12,6 @@ Image difference(const Image& theirs, const Image& ours) {
   return result;
 }
 
-struct PackedImage {
-  std::string name;
-  Image image;
-  bool from_ours;
-};
-
-struct Packing {
-  std::size_t bytes;
-  int precision;
-};
-
-/// Adds a script for each image by its name, all with the finest precision that fits into `max_bytes`, or with the
-/// coarsest if none fits.
 Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t max_bytes,
                              std::map<std::string, std::string>& scripts) {
   if (images.empty()) return {0, kFinest};
@@ -51,6 +33,8 @@ Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t
   }
   return {used, fits};
 }
+
+namespace {
 
 /// The scripts of all float pictures of a cell, by engine.
 std::map<std::string, std::string> make_scripts(CellPictures& pictures, const CheckedCell& cell,
@@ -97,7 +81,7 @@ void publish_float_pictures(CellPictures& pictures, const GalleryOptions& option
     if (image.exr.empty()) continue;
     const std::string file = image.engine + ".float.js";
     if (publisher.derive("cells/" + cell.id + "/" + file,
-                         fmt::format("{} of {}, {}", kFormat, bytes, all_hashes), [&] {
+                         fmt::format("{} of {}, {}", kFloatFormat, bytes, all_hashes), [&] {
                            if (!scripts) scripts = make_scripts(pictures, cell, *our_image, bytes);
                            return (*scripts)[image.engine];
                          }))

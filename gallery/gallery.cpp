@@ -6,10 +6,12 @@
 #include <regex>
 
 #include "core/interrupt.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "gallery/cell_page.hpp"
 #include "gallery/derived_pictures.hpp"
 #include "gallery/index_page.hpp"
+#include "gallery/packed_cells.hpp"
 #include "gallery/report.hpp"
 #include "gallery/views.hpp"
 
@@ -39,29 +41,37 @@ std::string checked_base_url(const std::string& url) {
 
 /// What is made of the cell's float pictures, and its page.
 CellSummary publish_page(const GalleryOptions& options, const SiteFrame& site,
-                         const ShownFarm& farm, const CellEntry& entry, CheckedCell& cell,
-                         CellPictures pictures, Publisher& publisher) {
+                         const ShownFarm& farm, const History& history, const CellEntry& entry,
+                         CheckedCell& cell, CellPictures pictures, Publisher& publisher) {
   if (!options.metrics_only) {
     publish_float_pictures(pictures, options, cell, publisher);
     publish_difference_maps(pictures, options, cell, publisher);
   }
-  const std::string folder = "cells/" + entry.id + "/";
-  publisher.write(folder + kCellData,
-                  data_script("page", records::record_line(cell_page_data(farm, entry, cell))));
-  publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
-  return summarise(farm, entry, cell);
+  return publish_with_history(farm, history, entry, cell, [&](std::optional<CellHistory>& past) {
+    CheckedCell* before = past && past->before ? &*past->before : nullptr;
+    if (before)
+      publish_before_pictures(history.baseline().directory, pictures, options, cell, *before,
+                              publisher);
+    const std::string folder = "cells/" + entry.id + "/";
+    publisher.write(
+        folder + kCellData,
+        data_script("page", records::record_line(cell_page_data(farm, entry, cell, before))));
+    publisher.write(folder + "index.html", cell_page(site, farm, entry, cell, history, past));
+  });
 }
 
 CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, const SiteFrame& site,
-                         const ShownFarm& farm, const CellEntry& entry, Publisher& publisher) {
-  CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub);
+                         const ShownFarm& farm, const History& history, const CellEntry& entry,
+                         Publisher& publisher) {
+  CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.scrub.get());
   if (options.metrics_only)
     for (EnginePicture& image : cell.images) image.exr.clear();
   publish_small_pictures(run, cell, options.metrics_only, publisher);
+  publish_thumbnail(run, options.surface, cell, publisher);
   for (const std::string& file : files_of(cell))
     publisher.copy(run, "cells/" + entry.id + "/" + file);
-  return publish_page(options, site, farm, entry, cell, CellPictures(run / "cells" / cell.id),
-                      publisher);
+  return publish_page(options, site, farm, history, entry, cell,
+                      CellPictures(run / "cells" / cell.id), publisher);
 }
 
 CellSummary publish_pair(const Report& report, const GalleryOptions& options, const SiteFrame& site,
@@ -76,38 +86,95 @@ CellSummary publish_pair(const Report& report, const GalleryOptions& options, co
   };
   for (EnginePicture& image : cell.images) publish(image.png);
   for (CheckedComparison& comparison : cell.comparisons) publish(comparison.png);
-  return publish_page(options, site, report.farm, entry, cell,
+  return publish_page(options, site, report.farm, {}, entry, cell,
                       CellPictures(std::move(made.pictures)), publisher);
 }
 
-/// The page of every cell, and then the index.
+/// The page of every cell.
 std::vector<CellSummary> publish_cells(
-    const SiteFrame& site, const ShownFarm& farm, Publisher& publisher,
-    const std::function<CellSummary(const CellEntry&)>& publish_one) {
+    const ShownFarm& farm, const std::function<CellSummary(const CellEntry&)>& publish_one) {
   std::vector<CellSummary> summaries(farm.cells.size());
   // Only the summaries are kept: thousands of cells do not fit into memory together.
   oneapi::tbb::parallel_for(std::size_t{0}, farm.cells.size(), [&](std::size_t i) {
     throw_if_interrupted();
     summaries[i] = publish_one(farm.cells[i]);
   });
-  // The index comes last, so that it never names a page that is not there.
-  publisher.write(kGridData,
-                  data_script("page", records::record_line(grid_page_data(farm, summaries))));
-  publisher.write("index.html", index_page(site, farm, summaries));
-  const EndDelay delay;
-  throw_if_interrupted();
-  publisher.finish();
-  interrupts_come_too_late();
   return summaries;
 }
 
-void require_short_title(const GalleryOptions& options) {
-  if (options.title.size() > 300) throw Error(ExitCode::kUsage, "--title: at most 300 bytes");
+/// It comes last, so that it never names a page that is not there.
+void publish_index(const SiteFrame& site, const ShownFarm& farm,
+                   const std::vector<Finding>& findings, const History& history,
+                   const std::vector<CellSummary>& summaries, bool is_part, Publisher& publisher) {
+  const GridData data = grid_data(farm, summaries);
+  for (const auto& [name, columns] : data.columns)
+    publisher.write(name + ".data.js", data_script(name, records::record_line(columns)));
+  publisher.write(kGridData, data_script("page", records::record_line(data.page)));
+  publisher.write("index.html", index_page(site, farm, summaries, findings, history));
+  const EndDelay delay;
+  throw_if_interrupted();
+  publisher.finish();
+  if (!is_part) interrupts_come_too_late();
 }
 
-void write_frame(Publisher& publisher) {
-  publisher.write(kStyleFile, embedded::gallery_style);
-  publisher.write(kScriptFile, embedded::gallery_script);
+std::vector<std::string> worse_of(const std::vector<CellSummary>& cells) {
+  std::vector<std::string> worse;
+  for (const CellSummary& cell : cells)
+    if (cell.change && cell.change->change == Change::kWorse)
+      worse.push_back(fmt::format("{}: {}", cell.entry->id, cell.change->reason));
+  return worse;
+}
+
+void check(const GalleryOptions& options) {
+  if (options.title.size() > 300) throw Error(ExitCode::kUsage, "--title: at most 300 bytes");
+  if (options.packed.value_or(false) && !options.metrics_only)
+    throw Error(ExitCode::kUsage, "--packed has no room for float pictures: add --metrics-only");
+}
+
+/// "gallery-0123456789.js"
+std::string named_by_content(const fs::path& file, std::string_view content) {
+  return file.stem().string() + "-" + hex(sha256(content)).substr(0, 10) +
+         file.extension().string();
+}
+
+void write_frame(Publisher& publisher, const SiteFrame& site) {
+  publisher.write(site.style, embedded::gallery_style);
+  publisher.write(site.script, embedded::gallery_script);
+}
+
+/// Null if nothing is to be taken out.
+std::shared_ptr<const Scrub> scrub_of(const fs::path& run, const GalleryOptions& options) {
+  if (!options.scrubbed) return nullptr;
+  std::vector<fs::path> directories = options.baselines;
+  directories.insert(directories.end(), {run, options.site});
+  const records::Farm farm = read_farm(run).record;
+  // Paths with spaces are only known where they are quoted.
+  if (farm.cache.starts_with('/')) directories.emplace_back(farm.cache);
+  for (std::size_t at = farm.command.find("'/"); at != std::string::npos;) {
+    const std::size_t end = std::min(farm.command.find('\'', at + 1), farm.command.size());
+    directories.emplace_back(farm.command.substr(at + 1, end - at - 1));
+    at = farm.command.find("'/", end + 1);
+  }
+  auto scrub = std::make_shared<Scrub>(
+      directories, farm.host ? std::vector{farm.host->name} : std::vector<std::string>());
+  scrub->keep_apart(farm.axes);
+  return scrub;
+}
+
+/// With that cell alone. Throws Error(kUsage) if there is none.
+ShownFarm only(const std::string& id, ShownFarm farm) {
+  if (id.empty()) return farm;
+  std::vector<std::string_view> ids;
+  for (const CellEntry& cell : farm.cells) ids.push_back(cell.id);
+  if (std::ranges::find(ids, id) == ids.end())
+    throw Error(ExitCode::kUsage, fmt::format("--cell: '{}' is no cell of the run{}", printable(id),
+                                              did_you_mean(id, ids)));
+  records::Farm record = std::move(farm.record);
+  std::erase_if(record.cells, [&](const records::FarmCell& cell) { return cell.id != id; });
+  ShownFarm one = show(std::move(record), farm.metrics);
+  one.made_by = farm.made_by;
+  one.scrub = farm.scrub;
+  return one;
 }
 
 std::vector<std::string> doubts_of(const std::vector<CellSummary>& cells) {
@@ -123,21 +190,35 @@ std::vector<std::string> doubts_of(const std::vector<CellSummary>& cells) {
 
 PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& options) {
   SiteFrame site{options.title, checked_base_url(options.base_url), {{"index.html", "Grid"}}};
-  require_short_title(options);
-  ShownFarm farm = read_farm(run, Metrics(options.metrics));
+  check(options);
+  ShownFarm farm =
+      only(options.only_cell, read_farm(run, Metrics(options.metrics), scrub_of(run, options)));
   if (site.title.empty()) site.title = farm.record.title;
   farm.record.title = site.title;
+  const History history = read_history(run, farm, options.baselines);
+  site.is_packed = options.packed.value_or(options.metrics_only && farm.cells.size() >= kManyCells);
+  if (options.for_host) {
+    site.style = named_by_content(kStyleFile, embedded::gallery_style);
+    site.script = named_by_content(kScriptFile, embedded::gallery_script);
+  }
   Publisher publisher(options.site.empty() ? run : options.site);
-  write_frame(publisher);
+  publisher.set_scrub(farm.scrub);
+  write_frame(publisher, site);
+  // Without it GitHub Pages leaves files out.
+  if (options.for_host) publisher.write(".nojekyll", "");
 
   std::vector<std::pair<const View*, ViewPage>> pages;
   for (const View* view : views()) {
-    auto page = view->draw(run);
+    if (options.only_cells) break;
+    auto page = view->draw({run, farm.scrub.get()});
     if (!page) continue;
     site.pages.push_back({std::string(view->file), std::string(view->title)});
     pages.emplace_back(view, std::move(*page));
   }
+  std::vector<Finding> findings;
   for (const auto& [view, page] : pages) {
+    if (!page.finding.empty())
+      findings.push_back({{std::string(view->file), std::string(view->title)}, page.finding});
     PageFrame frame{
         page.title, std::string(view->name), "", std::string(view->file), page.made_by, "", ""};
     if (!page.data.empty()) {
@@ -149,21 +230,26 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   }
 
   const std::vector<CellSummary> summaries =
-      publish_cells(site, farm, publisher, [&](const CellEntry& entry) {
-        return publish_cell(run, options, site, farm, entry, publisher);
-      });
-  return {publisher.site() / "index.html", summaries.size(), doubts_of(summaries)};
+      site.is_packed ? publish_packed_cells(run, options, site, farm, history, publisher)
+                     : publish_cells(farm, [&](const CellEntry& entry) {
+                         return publish_cell(run, options, site, farm, history, entry, publisher);
+                       });
+  publish_index(site, farm, findings, history, summaries, options.is_part, publisher);
+  return {publisher.site() / "index.html", summaries.size(), site.title, doubts_of(summaries),
+          worse_of(summaries)};
 }
 
 fs::path write_report(const Report& report, const GalleryOptions& options) {
-  require_short_title(options);
+  check(options);
   const SiteFrame site{report.farm.record.title, "", {{"index.html", "Pairs"}}};
   Publisher publisher(options.site);
-  write_frame(publisher);
+  write_frame(publisher, site);
   for (const auto& [name, text] : report.files) publisher.write(name, text);
-  publish_cells(site, report.farm, publisher, [&](const CellEntry& entry) {
-    return publish_pair(report, options, site, entry, publisher);
-  });
+  const std::vector<CellSummary> summaries =
+      publish_cells(report.farm, [&](const CellEntry& entry) {
+        return publish_pair(report, options, site, entry, publisher);
+      });
+  publish_index(site, report.farm, {}, {}, summaries, options.is_part, publisher);
   return publisher.site() / "index.html";
 }
 

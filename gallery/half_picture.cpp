@@ -1,11 +1,10 @@
 #include "gallery/half_picture.hpp"
 
-#include <zlib.h>
-
 #include "core/base64.hpp"
-#include "core/error.hpp"
 #include "core/half.hpp"
 #include "core/image_values.hpp"
+#include "gallery/deflated.hpp"
+#include "gallery/predicted.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -19,14 +18,6 @@ int ordered(std::uint16_t half, int dropped) {
   const int magnitude = half & 0x7fff;
   const int kept = (magnitude >= 0x7c00 ? magnitude : magnitude + (1 << dropped >> 1)) >> dropped;
   return half & 0x8000 ? -kept : kept;
-}
-
-/// Predicts a pixel from those left of it and above it, on a slope as at an edge: median edge detection (LOCO-I,
-/// Weinberger, Seroussi, Sapiro 2000).
-int predicted(int left, int above, int above_left) {
-  if (above_left >= std::max(left, above)) return std::min(left, above);
-  if (above_left <= std::min(left, above)) return std::max(left, above);
-  return left + above - above_left;
 }
 
 /// The values minus their prediction: for each channel the low bytes, then the high ones. Green is stored as its
@@ -59,17 +50,6 @@ std::string residuals(std::span<const std::uint16_t> halves, int width, int heig
     }
   }
   return bytes;
-}
-
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string result(size, '\0');
-  const auto* from = reinterpret_cast<const Bytef*>(bytes.data());
-  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, from,
-                static_cast<uLong>(bytes.size()), 6) != Z_OK)
-    throw Error(ExitCode::kInternal, "zlib: not enough memory for a picture");
-  result.resize(size);
-  return result;
 }
 
 }  // namespace

@@ -1,17 +1,35 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "gallery/grid_layout.hpp"
 #include "gallery/index_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
+constexpr std::size_t kMostWorst = 200;
+
+double largest_difference(const CellSummary& cell) {
+  double largest = 0;
+  for (const auto& [engine, metrics] : cell.metrics)
+    if (const double* one = records::find(metrics, "max_rel_peak"))
+      largest = std::max(largest, *one);
+  return largest;
+}
+
 class GridWriter {
  public:
-  GridWriter(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells)
-      : html_(html), farm_(farm), cells_(cells), layout_(lay_out(farm)) {}
+  GridWriter(Html& html, const SiteFrame& site, const ShownFarm& farm,
+             const std::vector<CellSummary>& cells)
+      : html_(html), site_(site), farm_(farm), cells_(cells), layout_(lay_out(farm)) {}
 
   void write() {
+    const Tag place(html_, "div", {{"id", "grid"}, {"class", "grid-place"}});
+    // The script draws the grid itself. Where it runs, thousands of cells are one text here, and no elements.
+    const Tag without_script(html_, "noscript");
+    if (site_.is_packed) return write_worst();
     if (is_list(farm_)) return write_list();
     for (std::size_t i = 0; i < layout_.sections.size(); ++i) write_section(i);
     write_rest();
@@ -105,7 +123,7 @@ class GridWriter {
   void write_cell(const CellSummary& cell) {
     const std::string words = cell.entry->label + ": " + std::string(info(cell.status).word);
     {
-      const Tag link(html_, "a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}});
+      const Tag link(html_, "a", {{"href", cell_link(site_, cell.entry->id)}});
       write_picture(cell, cell.picture, words);
       if (!cell.picture.shown()) {
         html_.element("span", {{"class", "no-picture"}, {"aria-label", words + ", no picture"}},
@@ -113,7 +131,15 @@ class GridWriter {
       }
     }
     write_status(html_, cell.status);
+    write_change(cell);
     write_figures(cell);
+  }
+
+  void write_change(const CellSummary& cell) {
+    if (!cell.change || cell.change->change == Change::kSame) return;
+    const ChangeInfo& change = info(cell.change->change);
+    html_.text(" ");
+    write_badge(html_, change.name, change.mark, change.word);
   }
 
   /// The whole grid as a list, the worst first.
@@ -121,12 +147,10 @@ class GridWriter {
     const Tag outer(html_, "section",
                     {{"class", "grid-section"}, {"aria-labelledby", "grid-list"}});
     html_.element("h2", {{"id", "grid-list"}}, fmt::format("All {}s", farm_.noun()));
-    // The script draws the list itself. Where it runs, a thousand pairs are one text here, and no elements.
-    const Tag without_script(html_, "noscript");
     const Tag list(html_, "ul", {{"class", "cell-list"}});
     for (const CellSummary& cell : cells_) {
       const Tag item(html_, "li");
-      const std::string href = link_to({"cells", cell.entry->id, "index.html"});
+      const std::string href = cell_link(site_, cell.entry->id);
       {
         const Tag link(html_, "a", {{"href", href}, {"class", "pictures-beside"}});
         write_picture(cell, cell.picture, "");
@@ -135,6 +159,34 @@ class GridWriter {
       html_.element("a", {{"href", href}, {"class", "cell-name"}}, cell.entry->label);
       html_.text(" ");
       write_status(html_, cell.status);
+      write_change(cell);
+      write_figures(cell);
+    }
+  }
+
+  /// In words, because a cell's page and its pictures need the script.
+  void write_worst() {
+    using Rank = std::tuple<int, double, std::ptrdiff_t>;
+    std::vector<Rank> ranks;
+    for (const CellSummary& cell : cells_)
+      ranks.emplace_back(rank_of(cell.status), -largest_difference(cell), &cell - cells_.data());
+    const std::size_t count = std::min(ranks.size(), kMostWorst);
+    std::ranges::partial_sort(ranks, ranks.begin() + std::ptrdiff_t(count));
+    ranks.resize(count);
+    const Tag outer(html_, "section", {{"class", "grid-section"}, {"aria-labelledby", "worst"}});
+    html_.element("h2", {{"id", "worst"}},
+                  fmt::format("The worst {} of {} {}s", count, cells_.size(), farm_.noun()));
+    html_.element(
+        "p",
+        fmt::format(
+            "The grid of all {}s, their pictures and their pages need the script: allow scripts to see them.",
+            farm_.noun()));
+    const Tag list(html_, "ul");
+    for (const auto& [status, difference, place] : ranks) {
+      const CellSummary& cell = cells_[std::size_t(place)];
+      const Tag item(html_, "li");
+      write_status(html_, cell.status);
+      html_.text(" " + cell.entry->title() + " ");
       write_figures(cell);
     }
   }
@@ -167,13 +219,14 @@ class GridWriter {
     const Tag list(html_, "ul");
     for (const CellEntry* entry : rest) {
       const Tag item(html_, "li");
-      html_.element("a", {{"href", link_to({"cells", entry->id, "index.html"})}}, entry->id);
+      html_.element("a", {{"href", cell_link(site_, entry->id)}}, entry->id);
       html_.text(" ");
       write_status(html_, cells_[entry - farm_.cells.data()].status);
     }
   }
 
   Html& html_;
+  const SiteFrame& site_;
   const ShownFarm& farm_;
   const std::vector<CellSummary>& cells_;
   const GridLayout layout_;
@@ -181,8 +234,9 @@ class GridWriter {
 
 }  // namespace
 
-void write_grid(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
-  GridWriter(html, farm, cells).write();
+void write_grid(Html& html, const SiteFrame& site, const ShownFarm& farm,
+                const std::vector<CellSummary>& cells) {
+  GridWriter(html, site, farm, cells).write();
 }
 
 }  // namespace lobelia::gallery

@@ -1,4 +1,4 @@
-#include "gallery/index_page.hpp"
+#include "gallery/cell_changes.hpp"
 
 #include <fmt/format.h>
 
@@ -12,12 +12,6 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr std::size_t kMaxReasons = 3;  // per cell; its page has them all
-// Cells to look at first: so many are shown, so many more can be unfolded; the grid has all.
-constexpr std::size_t kMaxShown = 6, kMaxFolded = 200;
-/// The worst first. A cell that was not compared or not done yet needs no attention.
-constexpr CellStatus kLookOrder[] = {
-    CellStatus::kDamaged, CellStatus::kLost,      CellStatus::kChanged, CellStatus::kFailed,
-    CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kUnsealed};
 
 /// "POV-Ray and Blender Cycles"
 std::string reference_titles(const ShownFarm& farm) {
@@ -47,6 +41,50 @@ void write_counts(Html& html, const ShownFarm& farm, const std::vector<CellSumma
   }
 }
 
+/// Null if no cell has a limit.
+const CellSummary* worst_cell(const std::vector<CellSummary>& cells) {
+  const auto worst = std::ranges::max_element(
+      cells, {}, [](const CellSummary& cell) { return cell.nearest.share(); });
+  return worst == cells.end() || worst->nearest.engine.empty() ? nullptr : &*worst;
+}
+
+/// That cell's picture beside its difference from the engine.
+void write_pair(Html& html, const ShownFarm& farm, const CellSummary* cell) {
+  if (farm.is_report || !cell || !cell->picture.shown() || !cell->nearest.picture.shown()) return;
+  const std::string engine = farm.engine_title(cell->nearest.engine);
+  const Tag pair(html, "div", {{"class", "pair"}});
+  const auto write = [&](const Picture& picture, const std::string& alt, const std::string& words) {
+    // A thumbnail shows the sphere, too.
+    const SmallPicture shown = picture.preview();
+    const Tag figure(html, "figure");
+    html.empty("img", {{"src", link_to({"cells", cell->entry->id, shown.file})},
+                       {"alt", alt},
+                       {"width", std::to_string(shown.width)},
+                       {"height", std::to_string(shown.height)}});
+    html.element("figcaption", words);
+  };
+  write(cell->picture, "A sphere with its highlight", cell->entry->title());
+  write(cell->nearest.picture, "The difference of two pictures",
+        fmt::format("Its difference from {}: white is {} of the peak", engine,
+                    percent_text(cell->nearest.difference)));
+}
+
+/// What came out, in one sentence.
+std::string result_sentence(const ShownFarm& farm, const std::vector<CellSummary>& cells) {
+  const auto count = [&](CellStatus status) {
+    return std::size_t(std::ranges::count(cells, status, &CellSummary::status));
+  };
+  const std::size_t pass = count(CellStatus::kPass), differs = count(CellStatus::kDiffers);
+  const std::string references = reference_titles(farm);
+  if (references.empty() || pass + differs == 0) return "Nothing has been compared yet.";
+  if (pass == cells.size())
+    return fmt::format("All {} highlights agree with {}, within what number formats allow.", pass,
+                       references);
+  return fmt::format("{} of {} highlights agree with {}; {} differ{}.", pass, cells.size(),
+                     references, differs == 0 ? "none" : std::to_string(differs),
+                     differs == 1 ? "s" : "");
+}
+
 bool has_formulas(const ShownFarm& farm) {
   return std::ranges::any_of(farm.record.engines, [](const records::FarmEngine& e) {
     return e.name == records::kAnalytic && e.available;
@@ -56,6 +94,7 @@ bool has_formulas(const ShownFarm& farm) {
 void write_introduction(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag header(html, "header", {{"class", "top"}});
   html.element("h1", farm.record.title);
+  if (!farm.record.authors.empty()) html.element("p", {{"class", "authors"}}, farm.record.authors);
   write_counts(html, farm, cells);
   if (farm.is_report) {
     html.element("p", {{"class", "lead"}},
@@ -63,13 +102,37 @@ void write_introduction(Html& html, const ShownFarm& farm, const std::vector<Cel
                              reference_titles(farm), farm.engine_title(farm.hub)));
     return;
   }
+  html.element("p", {{"class", "lead"}}, result_sentence(farm, cells));
   const std::string references = reference_titles(farm);
-  html.element(
-      "p", {{"class", "lead"}},
-      "Specular highlights, drawn by Lobelia straight from their models’ formulas. " +
-          (references.empty()
-               ? "No other renderer was there to compare them with."
-               : references + " drew the same scenes, and each pair was compared pixel by pixel."));
+  html.element("p",
+               "Lobelia renders specular highlights straight from their models’ formulas. " +
+                   (references.empty() ? "No other renderer was there to compare them with."
+                                       : references + " rendered the same scenes, and each pair of "
+                                                      "pictures was compared pixel by pixel."));
+}
+
+/// The cell that is nearest to its limit, and what the views found.
+void write_findings(Html& html, const SiteFrame& site, const ShownFarm& farm,
+                    const CellSummary* worst, const std::vector<Finding>& findings) {
+  if (!worst && findings.empty()) return;
+  const Tag section(html, "section", {{"class", "findings"}, {"aria-labelledby", "findings"}});
+  html.element("h2", {{"id", "findings"}}, "What was found");
+  const Tag list(html, "ul");
+  if (worst) {
+    const Tag item(html, "li");
+    html.text(worst->nearest.share() > 1 ? "Farthest beyond its limit: "
+                                         : "Nearest to its limit: ");
+    write_cell_link(html, site, *worst->entry);
+    html.text(fmt::format(", which differs from {} by {} of the peak; {} may be.",
+                          farm.engine_title(worst->nearest.engine),
+                          percent_text(worst->nearest.difference),
+                          percent_text(worst->nearest.limit)));
+  }
+  for (const Finding& finding : findings) {
+    const Tag item(html, "li");
+    html.text(finding.sentence + " ");
+    html.element("a", {{"href", link_to({finding.page.file})}}, finding.page.title);
+  }
 }
 
 void write_missing_engines(Html& html, const ShownFarm& farm) {
@@ -120,6 +183,33 @@ void write_making(Html& html, const ShownFarm& farm) {
   for (const auto& [name, value] : words_of(*farm.record.host)) write_fact(html, name, value);
 }
 
+/// Without what BibTeX would take for a command.
+std::string in_bibtex(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    if (c == '{' || c == '}' || c == '\\' || c == '"')
+      continue;
+    else if (std::string_view("#$%&_").find(c) != std::string_view::npos)
+      result += std::string("\\") + c;
+    else
+      result += c;
+  return result;
+}
+
+/// How to cite the study, if its grid names the authors.
+void write_citation(Html& html, const ShownFarm& farm) {
+  const std::string &authors = farm.record.authors, &url = farm.record.url;
+  if (authors.empty()) return;
+  const Tag section(html, "section", {{"class", "citation"}, {"aria-labelledby", "citation"}});
+  html.element("h2", {{"id", "citation"}}, "Cite");
+  std::string entry = fmt::format("@misc{{highlights,\n  author = {{{}}},\n  title = {{{}}},\n",
+                                  in_bibtex(authors), in_bibtex(farm.record.title));
+  if (!url.empty() && url.find_first_of("{}\\") == url.npos)
+    entry += fmt::format("  url = {{{}}},\n", url);
+  write_command(html,
+                entry + fmt::format("  note = {{Made with {}}}\n}}", in_bibtex(farm.made_by)));
+}
+
 /// Which models each engine shades by itself, a row a model.
 void write_models(Html& html, const ShownFarm& farm) {
   std::vector<const records::FarmEngine*> engines;
@@ -168,6 +258,18 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
       }
       html.element("dd", farm.is_report ? info(status).of_pair : info(status).meaning);
     }
+    for (const Change change : kChanges) {
+      const auto is_it = [&](const CellSummary& cell) {
+        return cell.change && cell.change->change == change;
+      };
+      if (change == Change::kSame || std::ranges::none_of(cells, is_it)) continue;
+      const Tag item(html, "div");
+      {
+        const Tag term(html, "dt");
+        write_badge(html, info(change).name, info(change).mark, info(change).word);
+      }
+      html.element("dd", info(change).meaning);
+    }
   }
   if (farm.is_report) {
     html.element(
@@ -182,7 +284,8 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
       "p",
       "A thumbnail is our picture at an exposure that brings its brightest value to white, "
       "so that sharp and broad highlights can both be seen; the cell’s page prints the "
-      "exposure. Click it for all pictures, differences, curves and numbers.");
+      "exposure. Grey is where no surface is, and a small highlight is enlarged in a corner. "
+      "Click it for all pictures, differences, curves and numbers.");
   if (!reference_titles(farm).empty()) {
     html.element(
         "p",
@@ -203,14 +306,14 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
   }
 }
 
-void write_attention_list(Html& html, std::span<const CellSummary* const> cells) {
+void write_attention_list(Html& html, const SiteFrame& site,
+                          std::span<const CellSummary* const> cells) {
   const Tag list(html, "ul");
   for (const CellSummary* cell : cells) {
     const Tag item(html, "li");
     write_status(html, cell->status);
     html.text(" ");
-    html.element("a", {{"href", link_to({"cells", cell->entry->id, "index.html"})}},
-                 cell->entry->label.empty() ? cell->entry->id : cell->entry->label);
+    write_cell_link(html, site, *cell->entry);
     for (std::size_t i = 0; i < std::min(cell->reasons.size(), kMaxReasons); ++i)
       html.element("small", cell->reasons[i]);
     if (cell->reasons.size() > kMaxReasons)
@@ -218,38 +321,43 @@ void write_attention_list(Html& html, std::span<const CellSummary* const> cells)
   }
 }
 
-void write_attention(Html& html, const std::vector<CellSummary>& cells) {
+void write_attention(Html& html, const SiteFrame& site, const std::vector<CellSummary>& cells) {
   std::vector<const CellSummary*> first;
-  for (const CellStatus status : kLookOrder)
-    for (const CellSummary& cell : cells)
-      if (cell.status == status) first.push_back(&cell);
+  for (const CellSummary& cell : cells)
+    if (needs_a_look(cell.status)) first.push_back(&cell);
+  std::ranges::stable_sort(first, {},
+                           [](const CellSummary* cell) { return rank_of(cell->status); });
   if (first.empty()) return;
   const Tag section(html, "section", {{"class", "attention"}, {"aria-labelledby", "attention"}});
   html.element("h2", {{"id", "attention"}}, "Look at these first");
-  const std::span<const CellSummary* const> all = first;
-  write_attention_list(html, all.first(std::min(all.size(), kMaxShown)));
-  if (all.size() <= kMaxShown) return;
-  const Tag details(html, "details");
-  const auto rest = all.subspan(kMaxShown);
-  html.element("summary", fmt::format("{} more{}", rest.size(),
-                                      rest.size() > kMaxFolded
-                                          ? fmt::format(", of which here are {}", kMaxFolded)
-                                          : ""));
-  write_attention_list(html, rest.first(std::min(rest.size(), kMaxFolded)));
+  write_folded(html, first, [&](auto some) { write_attention_list(html, site, some); });
 }
 
 }  // namespace
 
+void write_cell_link(Html& html, const SiteFrame& site, const CellEntry& entry) {
+  html.element("a", {{"href", cell_link(site, entry.id)}}, entry.title());
+}
+
 std::string index_page(const SiteFrame& site, const ShownFarm& farm,
-                       const std::vector<CellSummary>& cells) {
+                       const std::vector<CellSummary>& cells, const std::vector<Finding>& findings,
+                       const History& history) {
   Html html;
   write_introduction(html, farm, cells);
+  if (!history.empty()) write_changes(html, site, history, cells);
   write_doubts(html, farm, cells);
   write_missing_engines(html, farm);
-  write_attention(html, cells);
-  write_grid(html, farm, cells);
+  const CellSummary* worst = worst_cell(cells);
+  {
+    const Tag overview(html, "div", {{"class", "overview"}});
+    if (!site.is_packed) write_pair(html, farm, worst);
+    write_findings(html, site, farm, worst, findings);
+  }
+  write_attention(html, site, cells);
+  write_grid(html, site, farm, cells);
   write_legend(html, farm, cells);
   write_making(html, farm);
+  write_citation(html, farm);
   return finish_page(site, {site.title, "grid", "", "index.html", farm.made_by, kGridData, ""},
                      html);
 }

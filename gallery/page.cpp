@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/version.hpp"
+#include "gallery/page_text.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -32,9 +33,9 @@ void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
   }
   // Inline, or a browser would ask the server for /favicon.ico.
   html.empty("link", {{"rel", "icon"}, {"href", kIcon}});
-  html.empty("link", {{"rel", "stylesheet"}, {"href", frame.root + kStyleFile}});
+  html.empty("link", {{"rel", "stylesheet"}, {"href", frame.root + site.style}});
   // Classic scripts: browsers refuse modules on file://.
-  html.element("script", {{"src", frame.root + kScriptFile}, {"defer", "defer"}}, "");
+  html.element("script", {{"src", frame.root + site.script}, {"defer", "defer"}}, "");
   if (!frame.data.empty()) html.element("script", {{"src", frame.data}, {"defer", "defer"}}, "");
 }
 
@@ -97,6 +98,10 @@ std::string link_to(std::initializer_list<std::string_view> parts) {
   return link;
 }
 
+std::string cell_link(const SiteFrame& site, const std::string& id) {
+  return site.is_packed ? "cell.html#cell=" + link_to({id}) : link_to({"cells", id, "index.html"});
+}
+
 void write_badge(Html& html, std::string_view style, std::string_view mark, std::string_view word) {
   const Tag badge(html, "span", {{"class", fmt::format("status {}", style)}});
   html.element("span", {{"aria-hidden", "true"}}, mark);
@@ -110,7 +115,7 @@ void write_status(Html& html, CellStatus status) {
 
 void write_command(Html& html, const std::string& command) {
   const Tag pre(html, "pre", {{"class", "command"}, {"tabindex", "0"}});
-  html.element("code", command);
+  html.element("code", without_paths(command));
 }
 
 void write_absence(Html& html, const std::string& words) {

@@ -25,6 +25,8 @@ struct SiteFrame {
   std::string title;
   std::string base_url;         ///< public address, with a slash at its end; empty: unknown
   std::vector<PageLink> pages;  ///< the index first
+  bool is_packed = false;       ///< all cells are on one page (packed_cells.hpp)
+  std::string style = kStyleFile, script = kScriptFile;
 };
 
 struct PageFrame {
@@ -46,6 +48,9 @@ std::string data_script(std::string_view name, std::string_view json);
 /// A relative link to the file at these plain names: percent-encoded, joined with '/', so that a
 /// name such as "a:b" or "50%#1" is neither a scheme nor a fragment.
 std::string link_to(std::initializer_list<std::string_view> parts);
+
+/// From the index to a cell's page.
+std::string cell_link(const SiteFrame& site, const std::string& id);
 
 void write_badge(Html& html, std::string_view style, std::string_view mark, std::string_view word);
 void write_status(Html& html, CellStatus status);

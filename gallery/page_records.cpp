@@ -1,71 +1,9 @@
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
 
 #include "gallery/cell_page.hpp"
-#include "gallery/grid_layout.hpp"
-#include "gallery/index_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-/// Enough for a colour and a number on a page: 2000 cells of forty metrics stay under two megabytes.
-double four_digits(double value) {
-  return std::isfinite(value) ? std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr) : value;
-}
-
-/// Metrics by column, so that each name is written once, not once per cell.
-class MetricColumns {
- public:
-  MetricColumns(const Metrics& metrics, std::vector<records::GridMetric>& list)
-      : metrics_(metrics), list_(list) {}
-
-  std::vector<std::optional<double>> row_of(const records::Named<double>& numbers) {
-    std::vector<std::optional<double>> row;
-    for (const auto& [id, value] : numbers) {
-      const std::size_t at = column_of(id);
-      if (row.size() <= at) row.resize(at + 1);
-      row[at] = four_digits(value);
-    }
-    return row;
-  }
-
- private:
-  std::size_t column_of(const std::string& id) {
-    const auto [at, is_new] = column_.emplace(id, column_.size());
-    if (is_new) {
-      const MetricInfo info = metrics_.info(id);
-      list_.push_back({id, info.title, info.meaning, info.unit, info.more_is_better});
-    }
-    return at->second;
-  }
-
-  const Metrics& metrics_;
-  std::vector<records::GridMetric>& list_;
-  std::map<std::string, std::size_t> column_;
-};
-
-records::GridCell grid_cell(const CellSummary& cell, MetricColumns& columns) {
-  const CellEntry& entry = *cell.entry;
-  records::GridCell data;
-  data.id = entry.id;
-  data.label = entry.label;
-  data.href = link_to({"cells", entry.id, "index.html"});
-  data.status = info(cell.status).name;
-  data.at = entry.at;
-  for (const auto& [engine, numbers] : cell.metrics)
-    data.metrics.emplace_back(engine, columns.row_of(numbers));
-  const auto grid_picture = [&](const Picture& picture) {
-    const SmallPicture small = picture.preview();
-    return records::GridPicture{link_to({"cells", entry.id, small.file}), small.width,
-                                small.height};
-  };
-  if (cell.picture.shown()) data.picture = grid_picture(cell.picture);
-  for (const Picture& picture : cell.beside)
-    if (picture.shown()) data.beside.push_back(grid_picture(picture));
-  if (!cell.beside.empty() && !cell.reasons.empty()) data.finding = cell.reasons.front();
-  return data;
-}
 
 std::optional<records::ShownPicture> shown_picture(const Picture& picture) {
   if (!picture.shown()) return std::nullopt;
@@ -92,7 +30,7 @@ records::ShownComparison shown_comparison(const CheckedComparison& comparison) {
 std::optional<records::ShownProfile> shown_profile(const CheckedCell& cell) {
   if (!cell.profile || cell.profile->curve.angle_degrees.empty()) return std::nullopt;
   records::ShownProfile data{
-      cell.profile->angle, cell.profile->curve.angle_degrees, zones_of(*cell.profile), {}};
+      cell.profile->angle, cell.profile->curve.angle_degrees, zones_of(*cell.profile), {}, {}};
   for (const auto& [name, values] : cell.profile->curve.radiance)
     data.curves.push_back({name, values});
   return data;
@@ -100,30 +38,8 @@ std::optional<records::ShownProfile> shown_profile(const CheckedCell& cell) {
 
 }  // namespace
 
-records::GridPage grid_page_data(const ShownFarm& farm, const std::vector<CellSummary>& cells) {
-  records::GridPage data;
-  data.noun = farm.noun();
-  for (const records::Axis& axis : farm.record.axes) {
-    data.axes.push_back({axis.name, {}});
-    for (const records::AxisValue& value : axis.values)
-      data.axes.back().values.push_back(value.label);
-  }
-  for (const records::FarmEngine& engine : farm.record.engines)
-    if (engine.name != farm.hub && engine.available)
-      data.engines.push_back({engine.name, engine.title, farm.short_title(engine)});
-  const GridLayout layout = lay_out(farm);
-  data.layout = {layout.rows, layout.groups, layout.columns};
-  for (const CellStatus status : kCellStatuses) {
-    const StatusInfo& s = info(status);
-    data.statuses.push_back({std::string(s.name), std::string(s.word), std::string(s.mark)});
-  }
-  MetricColumns columns(farm.metrics, data.metrics);
-  for (const CellSummary& cell : cells) data.cells.push_back(grid_cell(cell, columns));
-  return data;
-}
-
 records::CellPage cell_page_data(const ShownFarm& farm, const CellEntry& entry,
-                                 const CheckedCell& cell) {
+                                 const CheckedCell& cell, const CheckedCell* before) {
   records::CellPage data;
   data.id = cell.id;
   data.label = entry.label;
@@ -133,7 +49,16 @@ records::CellPage cell_page_data(const ShownFarm& farm, const CellEntry& entry,
     const EnginePicture* image = cell.find_image(engine.name);
     data.engines.push_back({engine.name, engine.title, farm.short_title(engine),
                             image ? shown_picture(image->png) : std::nullopt,
-                            image ? link_to({image->float_script}) : ""});
+                            image ? link_to({image->float_script}) : "", ""});
+  }
+  // After all others, whose places are keys of the viewer.
+  for (const EnginePicture& image : before ? before->images : std::vector<EnginePicture>()) {
+    const auto now = std::ranges::find(data.engines, image.engine, &records::ShownEngine::name);
+    if (now == data.engines.end() || !now->picture) continue;
+    records::ShownEngine old{now->name + ".before",         now->title + ", before",
+                             now->short_title + ", before", shown_picture(image.png),
+                             link_to({image.float_script}), now->name};
+    data.engines.push_back(std::move(old));
   }
   for (const CheckedComparison& comparison : cell.comparisons)
     data.comparisons.push_back(shown_comparison(comparison));

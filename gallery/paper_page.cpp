@@ -7,6 +7,7 @@
 #include "core/svg_chart.hpp"
 #include "core/text.hpp"
 #include "gallery/page.hpp"
+#include "gallery/page_text.hpp"
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 
@@ -15,6 +16,8 @@ namespace {
 
 using records::Claim, records::PaperFigure, records::VerifyPaper;
 
+/// The claim that a reader would be most surprised to see fail.
+constexpr std::string_view kMostSurprising = "energy-cs16";
 constexpr char kRecord[] = "paper/paper.json";
 constexpr char kTitle[] = "The paper's claims, measured";
 
@@ -57,8 +60,12 @@ PaperFigure drawable(PaperFigure figure, std::size_t number) {
     band.to = std::min(figure.x.to, band.to);
   }
   std::erase_if(figure.bands, [](const auto& band) { return !(band.from < band.to); });
-  for (records::ChartSeries& series : figure.series)
+  for (std::string* text : {&figure.title, &figure.description, &figure.x.label, &figure.y.label})
+    *text = math_text(*text);
+  for (records::ChartSeries& series : figure.series) {
+    series.name = math_text(series.name);
     series.style = std::clamp(series.style, 0, kLastStyle);
+  }
   return figure;
 }
 
@@ -99,9 +106,9 @@ void write_measured(Html& html, const Claim& claim) {
   const Tag list(html, "ul", {{"class", "measured"}});
   for (const records::Measured& figure : claim.measured) {
     const Tag item(html, "li");
-    html.text(figure.what + ": ");
-    html.element("strong", figure.text);
-    if (!figure.at.empty()) html.element("small", " at " + figure.at);
+    write_math(html, figure.what + ": ");
+    math_element(html, "strong", figure.text);
+    if (!figure.at.empty()) math_element(html, "small", " at " + figure.at);
   }
 }
 
@@ -112,45 +119,95 @@ void write_links(Html& html, const std::string& words,
   html.text(words);
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (i > 0) html.text(", ");
-    html.element("a", {{"href", "#" + links[i].first}}, links[i].second);
+    math_element(html, "a", {{"href", "#" + links[i].first}}, links[i].second);
   }
 }
 
+/// A text with a link in place of the name of each other claim.
+void write_reference(Html& html, std::string_view text, const std::vector<Claim>& claims) {
+  const auto is_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  };
+  std::size_t shown = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end =
+        std::ranges::find_if_not(text.substr(at), is_name) - text.substr(at).begin() + at;
+    const std::string_view name = text.substr(at, end - at);
+    const auto claim =
+        name.find('-') == name.npos ? claims.end() : std::ranges::find(claims, name, &Claim::name);
+    if (claim != claims.end()) {
+      write_math(html, text.substr(shown, at - shown));
+      html.text("“");
+      math_element(html, "a", {{"href", "#" + id_of(*claim, claims)}}, claim->statement);
+      html.text("”");
+      shown = end;
+    }
+    at = std::max(end, at + 1);
+  }
+  write_math(html, text.substr(shown));
+}
+
 void write_claim(Html& html, const Claim& claim, const std::string& id,
-                 const std::vector<PaperFigure>& figures) {
+                 const std::vector<PaperFigure>& figures, const std::vector<Claim>& claims) {
   const Tag article(html, "article",
                     {{"class", "claim"}, {"id", id}, {"data-verdict", claim.verdict}});
-  html.element("h3", claim.statement);
+  math_element(html, "h3", claim.statement);
   {
     const Tag line(html, "p", {{"class", "verdict-line"}});
     const VerdictInfo& verdict = verdict_of(claim);
     write_badge(html, verdict.class_name, verdict.mark, verdict.word);
-    html.element("span", {{"class", "where"}}, claim.where);
+    math_element(html, "span", {{"class", "where"}}, claim.where);
   }
   {
     const Tag pair(html, "dl", {{"class", "printed-measured"}});
-    write_fact(html, "printed", claim.printed);
+    if (!claim.printed.empty()) {
+      const Tag printed(html, "div");
+      html.element("dt", "printed");
+      math_element(html, "dd", claim.printed);
+    }
     const Tag item(html, "div");
     html.element("dt", "measured");
     const Tag value(html, "dd");
     write_measured(html, claim);
   }
-  if (!claim.reason.empty()) html.element("p", claim.reason);
+  if (!claim.reason.empty()) {
+    const Tag reason(html, "p");
+    write_reference(html, claim.reason, claims);
+  }
   std::vector<std::pair<std::string, std::string>> links;
   for (const PaperFigure& figure : figures)
     if (shows(figure, claim)) links.push_back({figure.id + "-figure", figure.title});
   write_links(html, "Drawn in: ", links);
   const Tag details(html, "details");
   html.element("summary", "How it is measured");
-  html.element("p", claim.definition);
+  const Tag definition(html, "p");
+  write_reference(html, claim.definition, claims);
 }
 
-void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim>& claims) {
+/// What became of the claims that a figure shows.
+std::string finding_of(const PaperFigure& figure, const std::vector<Claim>& claims) {
+  std::string finding;
+  for (const VerdictInfo& verdict : kVerdicts) {
+    const auto count = std::ranges::count_if(claims, [&](const Claim& claim) {
+      return shows(figure, claim) && claim.verdict == verdict.name;
+    });
+    if (count > 0)
+      finding += fmt::format("{}{} {}", finding.empty() ? "" : ", ", count, verdict.word);
+  }
+  return finding.empty() ? "" : "Claims shown here: " + finding + ".";
+}
+
+void write_figure(ViewPage& page, const std::filesystem::path& run, const PaperFigure& figure,
+                  const std::string& file, const std::vector<Claim>& claims) {
+  Html& html = page.main;
   const Tag element(
       html, "figure",
       {{"class", "chart-figure"}, {"id", figure.id + "-figure"}, {"data-chart", figure.id}});
   html.element("h3", figure.title);
+  if (const std::string finding = finding_of(figure, claims); !finding.empty())
+    html.element("p", {{"class", "finding"}}, finding);
   html.raw(draw_chart(chart_of(figure)));
+  write_study_chart(page, run, {"paper", file});
   const Tag caption(html, "figcaption");
   html.text(figure.description);
   std::vector<std::pair<std::string, std::string>> links;
@@ -159,7 +216,14 @@ void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim
   write_links(html, "Shows: ", links);
 }
 
-void draw(ViewPage& page, const VerifyPaper& record) {
+/// The file that "lobelia verify paper --plots" writes.
+std::string file_of(const PaperFigure& figure) {
+  std::string name = figure.id;
+  std::ranges::replace(name, '-', '_');
+  return name + ".svg";
+}
+
+void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& record) {
   const std::vector<Claim>& claims = record.claims;
   records::PaperPage data;
   for (const PaperFigure& figure : record.figures)
@@ -179,19 +243,28 @@ void draw(ViewPage& page, const VerifyPaper& record) {
     if (data.charts.empty())
       write_absence(html, "The record has none: 'lobelia verify paper --plots' draws them.");
     const Tag grid(html, "div", {{"class", "figure-grid"}});
-    for (const PaperFigure& figure : data.charts) write_figure(html, figure, claims);
+    for (std::size_t i = 0; i < data.charts.size(); ++i)
+      write_figure(page, run, data.charts[i], file_of(record.figures[i]), claims);
   }
   {
     const Tag section(html, "section", {{"class", "claims"}});
     html.element("h2", "Claim by claim");
     const Tag grid(html, "div", {{"class", "claim-grid"}});
-    for (const Claim& claim : claims) write_claim(html, claim, id_of(claim, claims), data.charts);
+    for (const Claim& claim : claims)
+      write_claim(html, claim, id_of(claim, claims), data.charts, claims);
   }
   write_source(html, shell_join(record.command), kRecord);
+  page.finding = fmt::format("Of the paper’s claims, {} hold and {} could not be reproduced.",
+                             record.confirmed, record.not_reproduced);
+  const auto surprise = std::ranges::find(claims, kMostSurprising, &Claim::name);
+  if (surprise != claims.end() && surprise->verdict == "not reproduced")
+    page.finding += fmt::format(" It says that {}, but {}.", surprise->statement, surprise->reason);
 }
 
-std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
-  return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
+std::optional<ViewPage> read_and_draw(const RunFiles& run) {
+  return record_page<VerifyPaper>(
+      run, kRecord, kTitle,
+      [&](ViewPage& page, const VerifyPaper& record) { draw(page, run, record); });
 }
 
 }  // namespace

@@ -19,7 +19,9 @@
 
 #include "core/descriptor.hpp"
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/interrupt.hpp"
+#include "core/module.hpp"
 #include "core/open_beneath.hpp"
 #include "core/text.hpp"
 #include "gallery/byte_range.hpp"
@@ -30,6 +32,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+LOBELIA_MODULE_FUNCTION(server_module, MHD_add_response_header);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_create_response_from_buffer);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_create_response_from_fd_at_offset64);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_destroy_response);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_get_connection_info);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_get_connection_values);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_queue_response);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_run_wait);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_start_daemon);
+LOBELIA_MODULE_FUNCTION(server_module, MHD_stop_daemon);
 
 /// Connections at once. Each may take kRequestBytes and, while it gets a file, two descriptors.
 constexpr unsigned kMaxClients = 4000;
@@ -63,9 +76,14 @@ const char* content_type(const std::string& name) {
   return "application/octet-stream";
 }
 
-bool is_our_host(const std::string& host) {
-  static const std::regex kHost(R"re((127\.0\.0\.1|localhost)(:[0-9]{1,5})?)re");
-  return std::regex_match(host, kHost);
+bool is_our_host(const std::string& host, bool is_open) {
+  static const std::regex kHere(R"re((127(\.[0-9]{1,3}){3}|localhost)(:[0-9]{1,5})?)re");
+  static const std::regex kNumbers(R"re([0-9]{1,3}(\.[0-9]{1,3}){3}(:[0-9]{1,5})?)re");
+  if (std::regex_match(host, kHere)) return true;
+  if (!is_open) return false;
+  const std::string name = host.substr(0, host.find(':')), ours = host_name();
+  return std::regex_match(host, kNumbers) ||
+         (!ours.empty() && ::strcasecmp(name.c_str(), ours.c_str()) == 0);
 }
 
 /// Decodes percent signs: "%2e" is ".". Empty if one is not followed by two hexadecimal digits.
@@ -153,7 +171,7 @@ MHD_Result refuse(MHD_Connection* connection, unsigned status, std::string words
 /// Serves one directory with libmicrohttpd, on the calling thread alone.
 class Server {
  public:
-  Server(int site, Descriptor listening) : site_(site) {
+  Server(int site, Descriptor listening, bool is_open) : site_(site), is_open_(is_open) {
     const unsigned clients = clients_allowed();
     daemon_ = MHD_start_daemon(
         MHD_USE_EPOLL, 0, nullptr, nullptr, &Server::on_request, this,  //
@@ -270,10 +288,12 @@ class Server {
       return refuse(connection, MHD_HTTP_REQUEST_HEADER_FIELDS_TOO_LARGE, "Too many headers.");
     if (headers.hosts.size() > 1)
       return refuse(connection, MHD_HTTP_BAD_REQUEST, "More than one Host.");
-    if (headers.hosts.empty() || !is_our_host(headers.hosts[0]) ||
-        !is_our_host(headers.named_host.value_or("localhost")))
+    if (headers.hosts.empty() || !is_our_host(headers.hosts[0], is_open_) ||
+        !is_our_host(headers.named_host.value_or("localhost"), is_open_))
       return refuse(connection, MHD_HTTP_FORBIDDEN,
-                    "This preview answers to 127.0.0.1 and localhost alone.");
+                    is_open_
+                        ? "This preview answers to addresses in numbers and to its machine's name."
+                        : "This preview answers to 127.0.0.1 and localhost alone.");
     if (method != MHD_HTTP_METHOD_GET && method != MHD_HTTP_METHOD_HEAD)
       return refuse(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "Only GET and HEAD.",
                     {"Allow", "GET, HEAD"});
@@ -332,26 +352,29 @@ class Server {
   }
 
   int site_;
+  bool is_open_;
   MHD_Daemon* daemon_ = nullptr;
   std::size_t crowded_ = 0;                  ///< with more clients, each new one replaces another
   std::unordered_map<int, Client> clients_;  ///< by socket
   Clock::time_point last_look_ = Clock::now();
 };
 
-/// A socket that listens on 127.0.0.1; port 0 is any free one. With SO_REUSEADDR, so that a preview can be started
+/// A socket that listens there. With SO_REUSEADDR, so that a preview can be started
 /// again at once, but without SO_REUSEPORT, with which two previews would share a port.
-Descriptor listen_on(int port) {
+Descriptor listen_on(const PreviewPlace& place) {
   Descriptor one(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int yes = 1;
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  address.sin_port = htons(std::uint16_t(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(std::uint16_t(place.port));
+  if (::inet_pton(AF_INET, place.address.c_str(), &address.sin_addr) != 1)
+    throw Error(ExitCode::kUsage, fmt::format("--listen '{}': not an IPv4 address, such as 0.0.0.0",
+                                              printable(place.address)));
   if (one.get() < 0 || ::setsockopt(one.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
       ::bind(one.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::listen(one.get(), SOMAXCONN) != 0)
-    throw Error(ExitCode::kOutput,
-                fmt::format("127.0.0.1:{}: cannot listen there: {}", port, std::strerror(errno)));
+    throw Error(ExitCode::kOutput, fmt::format("{}:{}: cannot listen there: {}", place.address,
+                                               place.port, std::strerror(errno)));
   return one;
 }
 
@@ -364,16 +387,17 @@ int port_of(int socket) {
 
 }  // namespace
 
-void serve_site(const fs::path& site, int port,
+void serve_site(const fs::path& site, const PreviewPlace& place,
                 const std::function<void(const std::string&)>& ready) {
   const Descriptor root(::open(site.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (root.get() < 0)
     throw Error(ExitCode::kInput, fmt::format("{}: no directory that can be read: {}",
                                               site.string(), std::strerror(errno)));
-  Descriptor listening = listen_on(port);
+  Descriptor listening = listen_on(place);
   const int real_port = port_of(listening.get());
-  Server server(root.get(), std::move(listening));
-  ready(fmt::format("http://127.0.0.1:{}/", real_port));
+  Server server(root.get(), std::move(listening), place.is_open());
+  const bool is_every = place.address == "0.0.0.0";
+  ready(fmt::format("http://{}:{}/", is_every ? host_name() : place.address, real_port));
   server.run_until_interrupted();
 }
 

@@ -65,7 +65,27 @@ bool is_same_text(const fs::path& path, std::string_view content) {
   return read_file(path, content.size()) == content;
 }
 
+/// Every report of `lobelia compare` has one of these records. A gallery has neither.
+constexpr const char* kReportRecords[] = {"comparison.json", "comparison-set.json"};
+
 }  // namespace
+
+std::optional<SiteKind> kind_of_site(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(directory, error)) ||
+      !fs::is_regular_file(fs::symlink_status(directory / kSiteList, error)))
+    return std::nullopt;
+  try {
+    const auto list = records::read_record<records::GalleryList>(directory / kSiteList);
+    const auto has = [&](const char* name) {
+      return std::ranges::find(list.files, name) != list.files.end();
+    };
+    if (!has("index.html")) return std::nullopt;
+    return std::ranges::any_of(kReportRecords, has) ? SiteKind::kReport : SiteKind::kGallery;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
 
 Publisher::Publisher(fs::path site) : site_(std::move(site)) {
   make_directories(site_);
@@ -103,6 +123,8 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
   if (!is_within(run, from))
     throw Error(ExitCode::kInput,
                 from.string() + ": a link that leads out of the run is not published");
+  if (scrub_)
+    if (const auto scrubbed = scrub_->file(from)) return write(name, *scrubbed);
   add_to_list(name);
   const auto time = fs::last_write_time(from, error);
   if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&

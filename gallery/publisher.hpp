@@ -7,10 +7,16 @@
 #include <mutex>
 #include <set>
 
+#include "gallery/scrub.hpp"
+
 namespace lobelia::gallery {
 
 /// The list of a site's files, in it.
 inline constexpr char kSiteList[] = "gallery.json";
+
+enum class SiteKind { kGallery, kReport };
+/// The kind of site in a folder, by its list of files. Nothing if Lobelia did not write it, or if it is a link.
+std::optional<SiteKind> kind_of_site(const std::filesystem::path& directory);
 
 /// Names are paths below the site's directory: plain names, joined with '/'. Several threads may write, each
 /// its own files; then one calls finish().
@@ -19,6 +25,9 @@ class Publisher {
   /// Creates the directory and reads the list of files that an earlier publication wrote. An unreadable list counts as
   /// none.
   explicit Publisher(std::filesystem::path site);
+
+  /// What copies of the run's files leave out; null: nothing. Before the first copy().
+  void set_scrub(std::shared_ptr<const Scrub> scrub) { scrub_ = std::move(scrub); }
 
   const std::filesystem::path& site() const { return site_; }
 
@@ -43,6 +52,7 @@ class Publisher {
   void add_to_list(const std::string& name);
 
   std::filesystem::path site_;
+  std::shared_ptr<const Scrub> scrub_;
   std::set<std::string> earlier_;
   std::map<std::string, std::string> earlier_keys_;  ///< by name of a derived file
   std::mutex mutex_;                                 ///< for the members below

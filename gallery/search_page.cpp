@@ -9,6 +9,7 @@
 #include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "gallery/page.hpp"
+#include "gallery/page_text.hpp"
 #include "gallery/views.hpp"
 #include "records/lobe_search.hpp"
 
@@ -33,7 +34,7 @@ std::string range_of(const LobeSearch& found) {
 
 /// A chart of the lobes; errors[i] is the error of lobe i.
 std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
-                     const std::string& id, const std::string& title) {
+                     const std::string& id, const std::string& title, bool narrow) {
   ErrorTimes times{id, title, "value", "operations", "largest error, of the peak", {}};
   double nearest = std::numeric_limits<double>::infinity(), dearest = 1;
   std::map<int, double> nearest_of_price;
@@ -47,7 +48,7 @@ std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
     const SearchedLobe& lobe = found.lobes[i];
     const double price = lobe.price;
     const std::string label = fmt::format("{}: {} operations, error {}; {}", lobe.name, lobe.price,
-                                          number_text(errors[i], 4), lobe.formula);
+                                          number_text(errors[i], 4), math_text(lobe.formula));
     dearest = std::max(dearest, price);
     if (is_known(lobe)) {
       known.x.push_back(price);
@@ -60,11 +61,12 @@ std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
     // Lobes are cheapest first; of one price the nearest is on the front.
     const bool on_front = errors[i] <= nearest_of_price[lobe.price] && errors[i] < nearest;
     if (on_front) nearest = errors[i];
-    times.points.push_back({lobe.name, label, price, 0, errors[i], 0, on_front, lobe.name});
+    times.points.push_back(
+        {lobe.name, label, price, 0, errors[i], 0, on_front, lobe.name, lobe.name});
   }
   Chart chart = error_time_chart(times);
   chart.x = {"operations, a division counted as six", 0, dearest + 1};
-  chart.width = 800;
+  chart.width = narrow ? 380 : 800;
   chart.series.push_back(std::move(known));
   for (const double error : chart.series.back().y) chart.y.to = std::max(chart.y.to, error);
   return draw_chart(chart);
@@ -72,11 +74,15 @@ std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
 
 void write_chart(Html& html, const LobeSearch& found, const std::vector<double>& errors,
                  std::size_t number, const std::string& shown) {
-  Attributes attributes{{"class", "chart-figure"}, {"data-exponent", shown}};
+  Attributes attributes{{"class", "chart-figure"}, {"data-exponent", shown}, {"data-name", shown}};
   if (number > 0) attributes.emplace_back("hidden", "hidden");
   const Tag figure(html, "figure", attributes);
   html.element("figcaption", shown);
-  html.raw(chart_of(found, errors, fmt::format("search-{}", number), shown));
+  for (const bool narrow : {false, true}) {
+    const Tag box(html, "div", {{"class", narrow ? "narrow" : "wide"}});
+    html.raw(chart_of(found, errors, fmt::format("search-{}{}", number, narrow ? "-narrow" : ""),
+                      shown, narrow));
+  }
 }
 
 void write_charts(Html& html, const LobeSearch& found) {
@@ -101,7 +107,8 @@ void write_lobes(Html& html, const LobeSearch& found, const std::filesystem::pat
   html.element("summary", fmt::format("All {} lobes, the cheapest first", found.lobes.size()));
   const Tag scroll(html, "div", scroll_box("Lobes"));
   const Tag element(html, "table", {{"class", "figures"}});
-  write_columns(html, {"lobe", "operations", "time", "±", "error at most", "at least", "formula"});
+  write_columns(html,
+                {"lobe", "operations", "time", "spread", "error at most", "at least", "formula"});
   const Tag body(html, "tbody");
   for (const SearchedLobe& lobe : found.lobes) {
     const Tag row(html, "tr", {{"data-key", lobe.name}});
@@ -120,11 +127,26 @@ void write_lobes(Html& html, const LobeSearch& found, const std::filesystem::pat
     };
     number(fmt::format("{}", lobe.price));
     number(short_time_text(lobe.seconds.median));
-    number(number_text(100 * lobe.seconds.spread, 2) + " %");
+    number("± " + number_text(100 * lobe.seconds.spread, 2) + " %");
     number(number_text(lobe.errors.max, 4));
     number(lobe.lower_bound ? number_text(*lobe.lower_bound, 4) : "–");
-    html.element("td", {{"class", "formula"}}, lobe.formula);
+    math_element(html, "td", {{"class", "formula"}}, lobe.formula);
   }
+}
+
+/// The nearest lobe, beside the nearest of those that are known.
+std::string finding_of(const LobeSearch& found) {
+  const SearchedLobe *best = nullptr, *known = nullptr;
+  for (const SearchedLobe& lobe : found.lobes) {
+    const SearchedLobe*& place = is_known(lobe) ? known : best;
+    if (!place || lobe.errors.max < place->errors.max) place = &lobe;
+  }
+  if (!best) return "";
+  const auto told = [](const SearchedLobe& lobe) {
+    return fmt::format("“{}” takes {} operations and misses cosⁿ by {} of the peak at most",
+                       lobe.name, lobe.price, number_text(lobe.errors.max, 2));
+  };
+  return told(*best) + (known ? "; " + told(*known) : "") + ".";
 }
 
 void write_search(ViewPage& page, const LobeSearch& found, const std::filesystem::path& run) {
@@ -133,11 +155,13 @@ void write_search(ViewPage& page, const LobeSearch& found, const std::filesystem
   write_lead(
       html, kTitle,
       fmt::format(
-          "The lobes nearest to cos^n that so few operations can make, {}. 'Error at most' is proved for "
-          "every angle and exponent, 'at least' for every lobe of the same shape. t is n (1 - cos).",
+          "The lobes nearest to cosⁿ that so few operations can make, {}. 'Error at most' is proved for "
+          "every angle and exponent, 'at least' for every lobe of the same shape. t is n (1 − cos).",
           range_of(found)));
   {
     const Tag section(html, "section", {{"id", "table-0"}});
+    if (const std::string finding = finding_of(found); !finding.empty())
+      html.element("p", {{"class", "finding"}}, finding);
     const Tag pair(html, "div", {{"class", "cost-pair"}});
     write_charts(html, found);
     write_lobes(html, found, run, page);
@@ -145,7 +169,7 @@ void write_search(ViewPage& page, const LobeSearch& found, const std::filesystem
   write_source(html, shell_join(found.command), kRecord);
 }
 
-std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const RunFiles& run) {
   return record_page<LobeSearch>(
       run, kRecord, kTitle,
       [&](ViewPage& page, const LobeSearch& found) { write_search(page, found, run); });

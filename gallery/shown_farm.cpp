@@ -12,19 +12,34 @@
 namespace lobelia::gallery {
 namespace {
 
+/// A name that changes nothing beside it: marks of direction are written out, and one with letters from right to left is
+/// isolated (UAX 9, FSI and PDI).
+std::string contained(const std::string& name) {
+  // Lead bytes in UTF-8 of Hebrew, Arabic and their relatives, and of a few others, which lose nothing.
+  const bool may_run_left =
+      std::ranges::any_of(name,
+                          [](char c) {
+                            const auto byte = static_cast<unsigned char>(c);
+                            return (byte >= 0xD6 && byte <= 0xE0) || byte == 0xEF;
+                          }) ||
+      name.find("\xF0\x90") != name.npos || name.find("\xF0\x9E") != name.npos;
+  const std::string shown = printable_path(name);
+  return may_run_left ? "\u2068" + shown + "\u2069" : shown;
+}
+
 void fill_titles(records::Farm& farm) {
-  if (farm.title.empty()) farm.title = "Sphere grid";
+  farm.title = farm.title.empty() ? "Sphere grid" : contained(farm.title);
   for (records::Axis& axis : farm.axes)
     for (records::AxisValue& value : axis.values)
-      if (value.label.empty()) value.label = value.value;
+      value.label = contained(value.label.empty() ? value.value : value.label);
   for (records::FarmEngine& engine : farm.engines)
-    if (engine.title.empty()) engine.title = engine.name;
+    engine.title = contained(engine.title.empty() ? engine.name : engine.title);
 }
 
 /// A bare number says nothing without its axis: "exponent 16", but "Phong (RDF)".
 std::string titled(const records::Axis& axis, const std::string& label) {
   const bool is_number = !label.empty() && label.front() >= '0' && label.front() <= '9';
-  return is_number ? axis.name + " " + label : label;
+  return is_number ? contained(axis.name) + " " + label : label;
 }
 
 CellEntry entry_of(const records::FarmCell& record, const std::vector<records::Axis>& axes) {
@@ -36,7 +51,7 @@ CellEntry entry_of(const records::FarmCell& record, const std::vector<records::A
     const bool known = at != axis.values.end();
     cell.at.push_back(known ? static_cast<int>(at - axis.values.begin()) : -1);
     if (!cell.label.empty()) cell.label += " · ";
-    cell.label += titled(axis, known ? at->label : value);
+    cell.label += titled(axis, known ? at->label : contained(value));
   }
   return cell;
 }
@@ -76,7 +91,8 @@ ShownFarm show(records::Farm record, const Metrics& metrics) {
   return farm;
 }
 
-ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics) {
+ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics,
+                    std::shared_ptr<const Scrub> scrub) {
   const auto path = directory / "farm.json";
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
@@ -84,7 +100,9 @@ ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metri
                 path.string() +
                     ": no such file; a gallery is made of a directory that 'lobelia farm' wrote");
   records::Origin origin;
-  ShownFarm farm = show(records::read_record<records::Farm>(path, &origin), metrics);
+  ShownFarm farm =
+      show(read_scrubbed<records::Farm>(path, scrub.get(), path.string(), &origin), metrics);
+  farm.scrub = std::move(scrub);
   farm.made_by = origin.made_by;
   std::set<std::string> ids;
   for (std::size_t i = 0; i < farm.cells.size(); ++i)

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "gallery/metrics.hpp"
+#include "gallery/scrub.hpp"
 #include "gallery/status.hpp"
 #include "records/farm.hpp"
 
@@ -20,6 +21,8 @@ struct CellEntry {
   std::vector<int> at;
   /// "Phong (RDF) · cosine, exact · exponent 16": its labels in the order of the axes.
   std::string label;
+
+  const std::string& title() const { return label.empty() ? id : label; }
 };
 
 struct ShownFarm {
@@ -29,7 +32,9 @@ struct ShownFarm {
   bool is_report = false;
   std::string made_by;
   Metrics metrics;
-  std::vector<CellEntry> cells;                     ///< in the record's order
+  std::shared_ptr<const Scrub>
+      scrub;                     ///< of all records of the run; null: they are shown as they are
+  std::vector<CellEntry> cells;  ///< in the record's order
   std::map<std::vector<int>, std::size_t> cell_at;  ///< the first cell at each position
 
   /// "cell", or "pair" of a report.
@@ -46,6 +51,7 @@ struct ShownFarm {
 ShownFarm show(records::Farm record, const Metrics& metrics);
 
 /// Throws Error(kInput), naming the file and the key.
-ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics = {});
+ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics = {},
+                    std::shared_ptr<const Scrub> scrub = nullptr);
 
 }  // namespace lobelia::gallery

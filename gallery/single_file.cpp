@@ -11,6 +11,7 @@
 #include "core/html.hpp"
 #include "core/sha256.hpp"
 #include "gallery/page.hpp"
+#include "gallery/publisher.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -97,7 +98,8 @@ void write_file_element(Html& html, const std::string& name, const std::string& 
 
 }  // namespace
 
-std::string single_file(const fs::path& directory, const std::string& title) {
+std::string single_file(const fs::path& directory, const std::string& title,
+                        const std::string& first_page) {
   const std::string style = read_file(directory / kStyleFile, kMostBytes);
   const std::string script = read_file(directory / kScriptFile, kMostBytes);
   std::vector<fs::path> files;
@@ -105,6 +107,8 @@ std::string single_file(const fs::path& directory, const std::string& title) {
     if (entry.is_regular_file()) files.push_back(entry.path());
   std::ranges::sort(files);
 
+  const std::string first = first_page.empty() ? "index.html" : first_page;
+  const bool is_report = kind_of_site(directory) == SiteKind::kReport;
   Html html;
   html.raw("<!DOCTYPE html>\n");
   {
@@ -119,22 +123,27 @@ std::string single_file(const fs::path& directory, const std::string& title) {
                                           source_hash(script), source_hash(style))}});
       html.empty("meta",
                  {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+      html.empty("meta",
+                 {{"name", "generator"},
+                  {"content", is_report ? "Lobelia, a report in one file" : kSingleFileMark}});
       html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
       html.element("title", title);
       html.raw("<style>" + style + "</style>");
     }
     const Tag body(html, "body");
-    html.raw("<header class=\"site\"><a class=\"site-title\" href=\"#page=index.html\">");
-    html.text(title);
-    html.raw("</a></header>");
     {
-      const Tag main(html, "main", {{"id", "main"}});
+      const Tag header(html, "header", {{"class", "site"}});
+      html.element("a", {{"class", "site-title"}, {"href", "#page=" + link_to({first})}}, title);
+    }
+    {
+      const Tag main(html, "main", {{"id", "main"}, {"data-page", first}});
       const Tag none(html, "noscript");
       html.text("This file holds a whole report, which its script opens: allow scripts to see it.");
     }
     for (const fs::path& file : files) {
       const std::string name = file.lexically_relative(directory).generic_string();
-      if (name == kScriptFile) continue;
+      const bool is_page = name.ends_with(".html");
+      if (name == kScriptFile || (is_page && !first_page.empty() && name != first_page)) continue;
       write_file_element(html, name, read_file(file, kMostBytes));
     }
     html.raw("<script>" + script + "</script>");

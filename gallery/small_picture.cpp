@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "gallery/derived_pictures.hpp"
 
 #include "core/colour.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
+#include "gallery/plain_png.hpp"
+#include "gallery/unless_input.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -16,8 +19,15 @@ namespace fs = std::filesystem;
 constexpr int kSmallSide = 160;  // pixels, of the longer side
 /// A picture file up to this size is its own preview.
 constexpr std::uintmax_t kLightBytes = 48 << 10;
+constexpr std::uint64_t kMostShownBytes = std::uint64_t{1} << 28;  // of a PNG file
 
-/// Each pixel is the linear mean of the pixels that it covers.
+}  // namespace
+
+PictureSize size_within(int width, int height, int side) {
+  const double factor = std::min(1.0, double(side) / std::max(width, height));
+  return {std::max(1, int(width * factor + 0.5)), std::max(1, int(height * factor + 0.5))};
+}
+
 Image reduced(const Image& image, int width, int height) {
   const auto covered = [](int i, int count, int size) {
     const auto from = int(std::int64_t{i} * size / count);
@@ -39,30 +49,11 @@ Image reduced(const Image& image, int width, int height) {
   return result;
 }
 
-std::string png_bytes(const DisplayImage& shown) {
-  const TemporaryDirectory scratch;
-  const fs::path file = scratch.path() / "shown.png";
-  write_png(file, shown);
-  return read_file(file, std::uint64_t{1} << 32);
-}
+namespace {
 
 std::string small_png(const fs::path& picture, int width, int height) {
-  try {
-    return png_bytes(to_display(reduced(read_image(picture), width, height), 0));
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-    return "";  // a broken picture has no preview
-  }
-}
-
-struct Size {
-  int width, height;
-};
-
-/// Of the preview of a picture with the longer side over kSmallSide.
-Size small_size(int width, int height) {
-  const double factor = double(kSmallSide) / std::max(width, height);
-  return {std::max(1, int(width * factor + 0.5)), std::max(1, int(height * factor + 0.5))};
+  return unless_input(
+      [&] { return png_bytes(to_display(reduced(read_image(picture), width, height), 0)); });
 }
 
 std::string small_name(const std::string& file) {
@@ -71,27 +62,32 @@ std::string small_name(const std::string& file) {
 
 /// The light of a display's pixels.
 Image light_of(const DisplayImage& shown) {
+  static const std::array<float, 256> kLight = [] {
+    std::array<float, 256> light{};
+    for (int i = 0; i < 256; ++i) light[i] = srgb_decoded(float(i) / 255);
+    return light;
+  }();
   Image image(shown.width, shown.height);
-  for (std::size_t i = 0; i < shown.rgb.size(); ++i)
-    image.values()[i] = srgb_decoded(float(shown.rgb[i]) / 255);
+  for (std::size_t i = 0; i < shown.rgb.size(); ++i) image.values()[i] = kLight[shown.rgb[i]];
   return image;
 }
 
-void publish_small(const fs::path& run, const std::string& folder, bool all, Picture& picture,
-                   Publisher& publisher) {
-  if (!picture.shown() || std::max(picture.width, picture.height) <= kSmallSide) return;
-  const fs::path file = run / folder / picture.file;
-  std::error_code ignored;
-  if (!all && fs::file_size(file, ignored) <= kLightBytes) return;
-  const auto [width, height] = small_size(picture.width, picture.height);
-  const std::string name = small_name(picture.file);
-  if (publisher.derive(folder + name, "small picture 1 of " + hex(sha256_of_file(file)),
-                       [&] { return small_png(file, width, height); }))
-    picture.small = {name, width, height};
-  if (all && !picture.small.file.empty()) picture.is_published = false;
+}  // namespace
+
+std::optional<ShownPicture> ShownPicture::read(const fs::path& file) {
+  return unless_input([&]() -> std::optional<ShownPicture> {
+    std::optional<DisplayImage> plain = plain_png(read_file(file, kMostShownBytes));
+    Image light = plain ? light_of(*plain) : read_image(file);
+    return ShownPicture(std::move(plain), std::move(light));
+  });
 }
 
-}  // namespace
+DisplayImage ShownPicture::within(int side) const {
+  const bool is_small = std::max(light_.width(), light_.height()) <= side;
+  if (is_small) return plain_ ? *plain_ : to_display(light_, 0);
+  const auto [width, height] = size_within(light_.width(), light_.height(), side);
+  return to_display(reduced(light_, width, height), 0);
+}
 
 Picture publish_shown(const std::string& cell, const std::string& file, const DisplayImage& shown,
                       bool only_small, Publisher& publisher) {
@@ -102,7 +98,7 @@ Picture publish_shown(const std::string& cell, const std::string& file, const Di
   Picture picture{file, shown.width, shown.height, ""};
   const bool is_large = std::max(shown.width, shown.height) > kSmallSide;
   if (is_large) {
-    const auto [width, height] = small_size(shown.width, shown.height);
+    const auto [width, height] = size_within(shown.width, shown.height, kSmallSide);
     const std::string name = small_name(file);
     publisher.derive(folder + name, "small shown 1 " + key, [&] {
       return png_bytes(to_display(reduced(light_of(shown), width, height), 0));
@@ -115,12 +111,27 @@ Picture publish_shown(const std::string& cell, const std::string& file, const Di
   return picture;
 }
 
+void publish_small_picture(const fs::path& file, const std::string& folder, bool all,
+                           Picture& picture, Publisher& publisher) {
+  if (!picture.shown() || std::max(picture.width, picture.height) <= kSmallSide) return;
+  std::error_code ignored;
+  if (!all && fs::file_size(file, ignored) <= kLightBytes) return;
+  const auto [width, height] = size_within(picture.width, picture.height, kSmallSide);
+  const std::string name = small_name(picture.file);
+  if (publisher.derive(folder + name, "small picture 1 of " + hex(sha256_of_file(file)),
+                       [&] { return small_png(file, width, height); }))
+    picture.small = {name, width, height};
+  if (all && !picture.small.file.empty()) picture.is_published = false;
+}
+
 void publish_small_pictures(const fs::path& run, CheckedCell& cell, bool all,
                             Publisher& publisher) {
   const std::string folder = "cells/" + cell.id + "/";
-  for (EnginePicture& image : cell.images) publish_small(run, folder, all, image.png, publisher);
-  for (CheckedComparison& comparison : cell.comparisons)
-    publish_small(run, folder, all, comparison.png, publisher);
+  const auto publish = [&](Picture& picture) {
+    publish_small_picture(run / folder / picture.file, folder, all, picture, publisher);
+  };
+  for (EnginePicture& image : cell.images) publish(image.png);
+  for (CheckedComparison& comparison : cell.comparisons) publish(comparison.png);
 }
 
 }  // namespace lobelia::gallery

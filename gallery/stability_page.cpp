@@ -9,6 +9,7 @@
 #include "core/svg_chart.hpp"
 #include "core/text.hpp"
 #include "gallery/page.hpp"
+#include "gallery/page_text.hpp"
 #include "gallery/picture.hpp"
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
@@ -91,6 +92,43 @@ Chart angle_chart(const StabilityCurve& curve) {
                  {"ours", curve.degrees, curve.ours, 1}}};
 }
 
+/// From which exponent on the textbook gives no number, and how large our error is at most.
+std::string finding_of(const VerifyStability& data) {
+  double first = 0, ours = 0, naive = 0;
+  for (const records::StabilityOfLobe& s : data.by_exponent) {
+    if (s.group != kShownGroup || !(s.exponent > 0.0)) continue;
+    ours = std::max(ours, s.ours.of_peak);
+    if (std::isfinite(s.naive.of_peak))
+      naive = std::max(naive, s.naive.of_peak);
+    else if (first == 0 || *s.exponent < first)
+      first = *s.exponent;
+  }
+  const std::string textbook =
+      first > 0 ? fmt::format("The textbook’s formulas give no number for some lobe from n = {} on",
+                              power_text(first))
+                : fmt::format("The textbook’s formulas are off by up to {} of the peak",
+                              error_text(naive));
+  return fmt::format("{}; ours are off by {} of the peak at most.", textbook, error_text(ours));
+}
+
+/// The largest difference from the truth, of the textbook and of ours.
+std::string curve_finding(const StabilityCurve& curve) {
+  double naive = 0, ours = 0;
+  bool is_number = true;
+  for (std::size_t i = 0; i < curve.truth.size(); ++i) {
+    if (i < curve.naive.size()) {
+      is_number = is_number && std::isfinite(curve.naive[i]);
+      if (is_number) naive = std::max(naive, std::abs(curve.naive[i] - curve.truth[i]));
+    }
+    if (i < curve.ours.size()) ours = std::max(ours, std::abs(curve.ours[i] - curve.truth[i]));
+  }
+  const std::string textbook =
+      is_number ? fmt::format("is off by up to {} of the peak", error_text(naive))
+                : "is no number in places";
+  return fmt::format("At n = {} the textbook’s curve {}; ours is off by {} at most.",
+                     power_text(curve.exponent), textbook, error_text(ours));
+}
+
 void write_chart(Html& html, const Chart& chart, const std::string& words) {
   const Tag figure(html, "figure", {{"class", "chart-figure"}, {"id", chart.id + "-figure"}});
   html.element("h3", chart.title);
@@ -102,20 +140,23 @@ void write_charts(Html& html, const VerifyStability& data) {
   const Chart over_exponent = exponent_chart(data);
   const StabilityCurve* curve = shown_curve(data);
   if (over_exponent.series.empty() && !curve) return;
-  const Tag section(html, "section", {{"class", "charts"}});
-  html.element("h2", "How the error grows");
-  const Tag grid(html, "div", {{"class", "figure-grid"}});
-  if (!over_exponent.series.empty())
+  if (!over_exponent.series.empty()) {
+    const Tag section(html, "section", {{"class", "charts"}});
+    html.element("h2", "How the error grows");
+    html.element("p", {{"class", "finding"}}, finding_of(data));
+    const Tag grid(html, "div", {{"class", "figure-grid"}});
     write_chart(html, over_exponent,
                 "The worst of all lobes, against a reference of 50 digits. A line at the "
                 "top edge means that the textbook gave no number.");
-  if (curve)
-    write_chart(
-        html, angle_chart(*curve),
-        fmt::format(
-            "A modified Phong highlight of n = {}: the textbook's float32 has lost the angle, "
-            "ours lies on the truth.",
-            power_text(curve->exponent)));
+  }
+  if (curve) {
+    const Tag section(html, "section", {{"class", "charts"}});
+    html.element("h2", "What it does to one highlight");
+    html.element("p", {{"class", "finding"}}, curve_finding(*curve));
+    const Tag grid(html, "div", {{"class", "figure-grid"}});
+    write_chart(html, angle_chart(*curve),
+                fmt::format("A modified Phong highlight of n = {}.", power_text(curve->exponent)));
+  }
 }
 
 void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
@@ -175,8 +216,8 @@ void write_case(Html& html, const records::StabilityOfCase& one) {
   const Tag row(html, "tr");
   {
     const Tag head(html, "th", {{"scope", "row"}});
-    html.text(one.name);
-    if (!one.meaning.empty()) html.element("small", one.meaning);
+    write_math(html, one.name);
+    if (!one.meaning.empty()) math_element(html, "small", one.meaning);
   }
   html.element("td", {{"class", "number"}}, count_text(double(one.cases)));
   write_error(html, one.naive);
@@ -194,7 +235,7 @@ void write_group(Html& html, const VerifyStability& data, const std::string& gro
   Attributes attributes{{"class", "case-group"}, {"id", "group-" + group}};
   if (group == kShownGroup) attributes.push_back({"open", "open"});
   const Tag details(html, "details", attributes);
-  html.element("summary", meaning.empty() ? group : group + ": " + meaning);
+  math_element(html, "summary", meaning.empty() ? group : group + ": " + meaning);
   const Tag scroll(html, "div", scroll_box("Cases: " + group));
   const Tag table(html, "table", {{"class", "figures cases"}});
   {
@@ -260,9 +301,15 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
   if (!data.instruction_set.empty())
     html.element("p", "Instruction set: " + data.instruction_set + ".");
   page.data = records::record_line(page_data(data));
+  page.finding =
+      data.outside == 0
+          ? fmt::format("All {} hard cases stay within their stated error bounds.",
+                        count_text(double(data.cases)))
+          : fmt::format("{} of {} hard cases are outside their stated error bounds.",
+                        count_text(double(data.outside)), count_text(double(data.cases)));
 }
 
-std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const RunFiles& run) {
   return record_page<VerifyStability>(
       run, kRecord, kTitle,
       [&](ViewPage& page, const VerifyStability& data) { draw(page, run, data); });

@@ -1,6 +1,7 @@
 // The states of a cell, in words and with a mark that needs no colour.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -27,6 +28,20 @@ inline constexpr std::array<CellStatus, 10> kCellStatuses = {
     CellStatus::kPass,    CellStatus::kDamaged,   CellStatus::kLost,   CellStatus::kChanged,
     CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kFailed, CellStatus::kUnchecked,
     CellStatus::kMissing, CellStatus::kUnsealed};
+
+/// The worst first: a flaw is worse than a difference, and that than what is missing.
+inline constexpr std::array<CellStatus, 10> kWorstFirst = {
+    CellStatus::kDamaged, CellStatus::kLost,      CellStatus::kChanged,  CellStatus::kFailed,
+    CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kUnsealed, CellStatus::kUnchecked,
+    CellStatus::kMissing, CellStatus::kPass};
+/// 0 for the worst.
+constexpr int rank_of(CellStatus status) {
+  return int(std::ranges::find(kWorstFirst, status) - kWorstFirst.begin());
+}
+/// A cell that passes, or that was not compared or not done yet, needs no attention.
+constexpr bool needs_a_look(CellStatus status) {
+  return rank_of(status) < rank_of(CellStatus::kUnchecked);
+}
 
 /// Whether a file of the cell is not as the farm wrote it.
 constexpr bool is_flaw(CellStatus status) { return status <= CellStatus::kChanged; }

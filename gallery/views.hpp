@@ -1,10 +1,13 @@
 // The pages of the site beside the grid and the cells. Each is a file NAME_page.cpp and a name in views.cpp.
 #pragma once
 
+#include <array>
+#include <filesystem>
 #include <span>
 
 #include "core/error.hpp"
 #include "core/html.hpp"
+#include "gallery/scrub.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -16,6 +19,7 @@ struct ViewPage {
   Html main;            ///< complete without script
   std::string data;     ///< JSON for the page's script (pageData() in gallery/web); empty: none
   std::vector<std::string> files;  ///< that it links to, below the run's directory; copied with it
+  std::string finding = {};        ///< the page in a sentence, for the index; may be empty
 };
 
 struct View {
@@ -23,10 +27,11 @@ struct View {
   std::string_view title;  ///< in the navigation
   std::string_view file;   ///< "cost.html"
   /// Empty if the run has no record for it. A record that cannot be read becomes a sentence on the page.
-  std::optional<ViewPage> (*draw)(const std::filesystem::path& run);
+  std::optional<ViewPage> (*draw)(const RunFiles& run);
 };
 
 std::span<const View* const> views();
+extern const View explorer_view;  ///< cells link to it
 
 /// A page that says in place of everything why the record cannot be shown.
 ViewPage unreadable_page(const char* title, const Error& error);
@@ -34,14 +39,12 @@ ViewPage unreadable_page(const char* title, const Error& error);
 /// The page that `draw` fills from the record in RUN/file; empty if there is no such file. If the record cannot be read
 /// or `draw` throws Error(kInput), the page says so.
 template <class T>
-std::optional<ViewPage> record_page(const std::filesystem::path& run, const char* file,
-                                    const char* title,
+std::optional<ViewPage> record_page(const RunFiles& run, const char* file, const char* title,
                                     const std::function<void(ViewPage&, const T&)>& draw) {
   if (!std::filesystem::exists(run / file)) return std::nullopt;
   try {
     records::Origin origin;
-    const T record =
-        records::parse_record<T>(read_file(run / file, records::kMaxRecordBytes), file, &origin);
+    const T record = read_scrubbed<T>(run / file, run.scrub, file, &origin);
     ViewPage page{title, origin.made_by, {}, "", {file}};
     draw(page, record);
     return page;
@@ -55,6 +58,10 @@ std::optional<ViewPage> record_page(const std::filesystem::path& run, const char
 void write_lead(Html& html, const char* title, const std::string& words);
 /// The command that measured the record, and a link to it.
 void write_source(Html& html, const std::string& command, const char* file);
+/// A link to the SVG file that a study drew at RUN/at[0]/at[1], which is published with the page. Nothing if the file is not
+/// there, or has more in it than a chart (safe_svg.hpp).
+void write_study_chart(ViewPage& page, const std::filesystem::path& run,
+                       const std::array<std::string, 2>& at);
 /// Attributes of a <div> in which a wide table scrolls.
 Attributes scroll_box(const std::string& label);
 

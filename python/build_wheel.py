@@ -16,7 +16,7 @@ PYTHON = pathlib.Path(__file__).resolve().parent
 ROOT = PYTHON.parent
 PRESET = "release"
 TARGETS = ["lobelia_python", "lobelia_image_io"]
-COMPANIONS = ["lobelia_image_io.so", "lobelia_picture_reader", "lobelia_process_keeper", "engine_*"]
+COMPANIONS = ["lobelia_*.so", "lobelia_picture_reader", "lobelia_process_keeper", "engine_*"]
 
 
 def version() -> str:

@@ -26,27 +26,36 @@ struct Compared {
   std::string record;
 };
 
-/// The options of compare(): those of the command line that need no files of the pair.
-struct CompareOptions {
-  std::vector<std::string> fail, warn;
-  std::string metrics, tolerance, scene, layer;
-  bool no_default_limits = false, allow_equal_nonfinite = false;
-  int threads = 0;
-  cli::CompareJob job;
-  cli::ViewingFlags viewing;
+/// A comparison of folders, or of another set of pictures.
+struct ComparedSet {
+  std::string record, text, markdown;
+  bool passed;
+};
 
+/// The options of compare(): those of the command line that write no files.
+struct CompareOptions : cli::CompareArguments {
   void add_to(CLI::App& app) {
     cli::OptionGroup group(app);
+    group.add("--pairs", job.pictures.csv, "", "");
+    group.add("--pattern", job.pictures.pattern, "", "");
+    group.add("--sets", job.pictures.sets, "", "");
+    group.add("--also-accept", job.pictures.also_accepted, "", "")->expected(1)->take_all();
+    group.add("--project", project, "", "");
+    group.add("--reference-floor", job.c, "", "");
     group.add("--fail", fail, "", "")->expected(1)->take_all();
     group.add("--warn", warn, "", "")->expected(1)->take_all();
     group.add("--metrics", metrics, "", "");
     group.add("--tolerance", tolerance, "", "");
-    group.add("--scene", scene, "", "");
+    group.add("--scene", job.scene, "", "");
     group.add("--layer", layer, "", "");
+    group.add("--ocio", display.config, "", "");
+    group.add("--display", display.display, "", "");
+    group.add("--view", display.view, "", "");
+    group.add("--input-space", display.input_space, "", "");
     group.add_flag("--all-layers", job.layers.all, "");
     group.add_flag("--ignore-alpha", job.layers.ignore_alpha, "");
     group.add_flag("--no-default-limits", no_default_limits, "");
-    group.add_flag("--allow-equal-nonfinite", allow_equal_nonfinite, "");
+    group.add_flag("--allow-equal-nonfinite", job.comparison.allow_equal_nonfinite, "");
     group.add_number("--threads", threads, 0, 1024, "");
     job.regions.add_to(app);
     job.noise.add_to(app);
@@ -58,24 +67,37 @@ struct CompareOptions {
     ComparisonOptions& options = job.comparison;
     options.highlight = true;
     options.default_limits = !no_default_limits;
-    options.allow_equal_nonfinite = allow_equal_nonfinite;
     for (const std::string& text : fail) options.limits.push_back(cli::parse_limit("limits", text));
     for (const std::string& text : warn)
       options.warnings.push_back(cli::parse_limit("warnings", text));
     options.metrics = split(metrics, ",");
     if (!tolerance.empty()) options.tolerance = cli::parse_tolerance("tolerance", tolerance);
+    if (!project.empty()) cli::apply_project(*this);
     job.layers.layer = parse_layer_names(layer);
     viewing.apply(options.viewing);
-    if (!scene.empty()) {
-      const Scene shown = read_scene(scene);
+    options.viewing.display = DisplayView::open(display);
+    if (!job.scene.empty()) {
+      const Scene shown = read_scene(job.scene);
       options.surfaces = truth::surface_mask(shown);
-      options.mask_of = {scene};
+      options.mask_of = {job.scene};
       if (options.tolerance) options.tolerance->edges = truth::edge_ring(shown);
-      job.scene = scene;
+      for (cli::PairRule& rule : job.rules)
+        if (rule.tolerance) rule.tolerance->edges = truth::edge_ring(shown);
     }
     job.regions.read(options);
     job.noise.apply(options);
     check_options(options);
+  }
+
+  /// Whether they are for folders, or for pictures that a project or a table names.
+  bool is_for_set() const {
+    const PairingChoice& pictures = job.pictures;
+    const auto is_several = [](const std::string& path) {
+      std::error_code none;
+      return std::filesystem::is_directory(path, none) || is_sequence(path);
+    };
+    return !project.empty() || !pictures.csv.empty() || !pictures.pattern.empty() ||
+           !pictures.also_accepted.empty() || std::ranges::any_of(pictures.given, is_several);
   }
 };
 
@@ -107,10 +129,28 @@ void choose_exposures(const Image& reference, HdrExposures& exposures) {
   }
 }
 
+ComparedSet compare_set(CompareOptions& options, const py::object& progress) {
+  ComparedSet compared;
+  run(progress, [&](const ShowProgress& show) {
+    options.apply();
+    const Pairing pairing = pair_pictures(options.job.pictures);
+    cli::check_companions(options.job, pairing);
+    const double count = double(cli::pairs_of(pairing).size());
+    ThreadLimit(options.threads).run([&] {
+      const SetReport report = cli::compare_pairs(
+          options.job, pairing, [&](std::size_t done) { show(double(done) / count); });
+      cli::require_pairs(report);
+      compared = {records::record_text(set_record(report)), counts_text(report),
+                  set_markdown(report), set_exit_code(report) == ExitCode::kSuccess};
+    });
+  });
+  return compared;
+}
+
 std::shared_ptr<Compared> compare_two(const py::object& a, const py::object& b,
-                                      const py::dict& given) {
-  CompareOptions options;
-  parse_options(given, [&](CLI::App& app) { options.add_to(app); });
+                                      CompareOptions& options) {
+  if (!options.job.c.empty())
+    throw Error(ExitCode::kUsage, "reference_floor is for folders and projects");
   auto compared = std::make_shared<Compared>();
   Side side_a(a, "a"), side_b(b, "b");
   const bool files = side_a.is_file() && side_b.is_file();
@@ -135,7 +175,7 @@ std::shared_ptr<Compared> compare_two(const py::object& a, const py::object& b,
         if (!how.surfaces.empty() && how.surfaces.size() != pair.a.image.pixel_count())
           throw Error(ExitCode::kInput,
                       fmt::format("a has {} x {} pixels, the film of {} {}", pair.a.image.width(),
-                                  pair.a.image.height(), options.scene, how.surfaces.size()));
+                                  pair.a.image.height(), options.job.scene, how.surfaces.size()));
         options.job.regions.apply(pair.b.image.width(), pair.b.image.height(), how);
         take_part(pair, report.a, report.b, how);
       }
@@ -147,6 +187,26 @@ std::shared_ptr<Compared> compare_two(const py::object& a, const py::object& b,
     });
   });
   return compared;
+}
+
+/// A Compared, or of folders a ComparedSet.
+py::object compare(const py::object& a, const py::object& b, const py::dict& given,
+                   const py::object& progress) {
+  CompareOptions options;
+  parse_options(given, [&](CLI::App& app) { options.add_to(app); });
+  for (const py::object& picture : {a, b})
+    if (is_path(picture)) options.job.pictures.given.push_back(path_of(picture));
+  if (options.is_for_set()) {
+    for (const auto& [picture, letter] : {std::pair(a, "a"), std::pair(b, "b")})
+      if (!picture.is_none() && !is_path(picture))
+        throw Error(ExitCode::kUsage,
+                    fmt::format("{} is no path; of a set, both are folders or files", letter));
+    return py::cast(compare_set(options, progress));
+  }
+  if (a.is_none() || b.is_none())
+    throw Error(ExitCode::kUsage,
+                "a and b are required: two pictures or two folders; or pairs or project");
+  return py::cast(compare_two(a, b, options));
 }
 
 const DifferenceMap& map_of(const std::string& id) {
@@ -222,7 +282,12 @@ void add_compare(py::module_& module) {
                              })
       .def("map", &map_array)
       .def("map_png", &map_png);
-  module.def("compare", &compare_two);
+  py::class_<ComparedSet>(module, "ComparedSet")
+      .def_readonly("record", &ComparedSet::record)
+      .def_readonly("text", &ComparedSet::text)
+      .def_readonly("markdown", &ComparedSet::markdown)
+      .def_readonly("passed", &ComparedSet::passed);
+  module.def("compare", &compare);
   module.def("map_names", [] {
     std::vector<std::string> names;
     for (const DifferenceMap& map : difference_maps()) names.emplace_back(map.id);

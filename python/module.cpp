@@ -8,20 +8,14 @@
 #include "core/threads.hpp"
 #include "core/version.hpp"
 
-namespace lobelia {
-namespace {
-std::vector<std::string> g_command_line{"python3"};
-}  // namespace
-
-/// For records: Python's own.
-const std::vector<std::string>& cli::command_line() { return g_command_line; }
-
-namespace python {
+namespace lobelia::python {
 namespace {
 
+/// Of Python, for records.
 void take_command_line() {
   const py::list words = py::module_::import("sys").attr("orig_argv");
-  for (std::size_t i = 1; i < words.size(); ++i) g_command_line.push_back(path_of(words[i]));
+  cli::command_line() = {"python3"};
+  for (std::size_t i = 1; i < words.size(); ++i) cli::command_line().push_back(path_of(words[i]));
 }
 
 }  // namespace
@@ -44,8 +38,7 @@ void add_errors(py::module_& module) {
   own_file();  // as long as the path that Python knows is good
 }
 
-}  // namespace python
-}  // namespace lobelia
+}  // namespace lobelia::python
 
 PYBIND11_MODULE(_lobelia, module) {
   using namespace lobelia::python;

@@ -7,7 +7,6 @@
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "core/image_io_module.hpp"
 #include "core/text.hpp"
 #include "python/module.hpp"
 
@@ -43,10 +42,7 @@ void write(const py::object& path, const py::object& array, double exposure) {
 
 }  // namespace
 
-py::bytes png_of(const DisplayImage& picture) {
-  const std::vector<std::uint8_t> bytes = image_io_table().encode_png(picture, {});
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+py::bytes png_of(const DisplayImage& picture) { return png_bytes(picture); }
 
 py::array view_of(const Image& image, const py::object& owner) {
   py::array view = array_at(image, owner);

@@ -1,6 +1,8 @@
 // Profiles of highlights, with and without their scene.
 #include "cli/options.hpp"
 #include "compare/profile/blob.hpp"
+#include "compare/profile/measure_noise.hpp"
+#include "compare/require_same_size.hpp"
 #include "core/image_io.hpp"
 #include "farm/profile_scene.hpp"
 #include "python/module.hpp"
@@ -9,27 +11,74 @@
 namespace lobelia::python {
 namespace {
 
-/// One or two pictures, read or copied.
+/// A path, or an array that was copied.
+struct PictureOrPath {
+  std::string name, file;
+  Image image;
+
+  PictureOrPath(const py::object& given, std::string letter) : name(std::move(letter)) {
+    if (is_path(given))
+      file = path_of(given);
+    else
+      image = image_of(given, name);
+  }
+  Image read() { return file.empty() ? std::move(image) : read_image(file); }
+  const std::string& shown() const { return file.empty() ? name : file; }
+};
+
+/// A picture, with its standard errors or independent pictures of the same.
+struct MeasuredPicture {
+  std::string name;
+  PictureOrPath picture;
+  std::optional<PictureOrPath> error;
+  std::vector<PictureOrPath> replicates;
+  Image image;
+  std::optional<PictureNoise> noise;
+
+  /// (picture, error or None, replicates)
+  MeasuredPicture(const py::tuple& given, const std::string& letter)
+      : name(letter), picture(given[0], letter) {
+    if (!given[1].is_none()) error.emplace(given[1], letter + "'s error");
+    for (const py::handle one : given[2])
+      replicates.emplace_back(py::reinterpret_borrow<py::object>(one), letter + "'s replicate");
+  }
+
+  void read() {
+    image = picture.read();
+    const auto beside = [&](PictureOrPath& other) {
+      Image read = other.read();
+      require_same_size(image, read, picture.shown(), other.shown());
+      return read;
+    };
+    // The pixels of a renderer's picture share their sample points.
+    if (error) noise = noise_of_standard_errors(beside(*error), kFreedomOfErrors, true);
+    if (replicates.empty()) return;
+    std::vector<Image> others;
+    for (PictureOrPath& replicate : replicates) others.push_back(beside(replicate));
+    noise = noise_of_replicates(image, std::move(others));
+  }
+};
+
+/// One or two pictures.
 struct Pictures {
-  std::vector<std::string> names;
-  std::vector<std::string> files;
-  std::vector<Image> images;
+  std::vector<MeasuredPicture> all;
 
   explicit Pictures(const py::list& given) {
-    for (const py::handle one : given) {
-      const auto picture = py::reinterpret_borrow<py::object>(one);
-      names.emplace_back(names.empty() ? "a" : "b");
-      files.push_back(is_path(picture) ? path_of(picture) : "");
-      images.push_back(files.back().empty() ? image_of(picture, names.back()) : Image());
-    }
+    for (const py::handle one : given)
+      all.emplace_back(py::reinterpret_borrow<py::tuple>(one), all.empty() ? "a" : "b");
   }
   NamedImages read() {
     NamedImages named;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      if (!files[i].empty()) images[i] = read_image(files[i]);
-      named.emplace_back(names[i], &images[i]);
+    for (MeasuredPicture& one : all) {
+      one.read();
+      named.emplace_back(one.name, &one.image);
     }
     return named;
+  }
+  std::vector<const PictureNoise*> noise() const {
+    std::vector<const PictureNoise*> found;
+    for (const MeasuredPicture& one : all) found.push_back(one.noise ? &*one.noise : nullptr);
+    return found;
   }
 };
 
@@ -45,6 +94,7 @@ std::string blobs(const py::list& given, std::optional<std::array<double, 2>> at
   std::string text;
   run(py::none(), [&](const ShowProgress&) {
     const NamedImages images = pictures.read();
+    options.noise = pictures.noise();
     const records::Blobs record = blobs_record(measure_blobs(images, options), least);
     text = at ? records::record_text(record.highlights.front()) : records::record_text(record);
   });
@@ -62,8 +112,8 @@ std::string profiles(const py::list& given, const py::object& scene_text, std::o
   run(py::none(), [&](const ShowProgress& show) {
     const NamedImages images = pictures.read();
     if (light || sphere) {
-      text = records::record_text(
-          profile_scene(scene, light.value_or(0), sphere.value_or(0), images, true));
+      text = records::record_text(profile_scene(scene, light.value_or(0), sphere.value_or(0),
+                                                images, true, pictures.noise()));
       return;
     }
     const auto highlights = highlights_of(scene);
@@ -71,7 +121,7 @@ std::string profiles(const py::list& given, const py::object& scene_text, std::o
       throw Error(ExitCode::kInput, "scene: no sphere of it has a highlight, or there is no light");
     records::Profiles all;
     for (const auto& [on, of] : highlights) {
-      all.profiles.push_back(profile_scene(scene, of, on, images, true));
+      all.profiles.push_back(profile_scene(scene, of, on, images, true, pictures.noise()));
       show(double(all.profiles.size()) / double(highlights.size()));
     }
     text = records::record_text(all);

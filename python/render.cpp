@@ -98,12 +98,12 @@ Rendered reference(const py::object& text, const std::string& name, const py::di
     group.add("--shading", shading, "", "");
     group.add_number("--time-limit", time_limit, 0.1, 1e6, "");
     group.add_number("--points", options.points, kReplicates, 1 << 20, "");
-    group.add_number("--point-seed", options.seed, 0, 1 << 30, "");
     group.add_number("--threads", options.threads, 0, 1024, "");
     overrides.add_to(app);
   });
   const auto engine = make_engine(name, program);
   if (!precision.empty()) options.fine = is_fine(engine->info(), precision);
+  options.seed = overrides.seed().value_or(options.seed);
   options.shading = Shading(cli::chosen_place(shading, "--shading", kShadingNames));
   options.time_limit = std::chrono::duration<double>(time_limit);
   Scene scene = scene_of(text);

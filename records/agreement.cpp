@@ -35,7 +35,7 @@ void define_agreement_tables(Tables& tables) {
     t.key("why").if_any();
   });
   tables.define<Agreement>(
-      "How far all engines are from the formulas: 'lobelia verify references --json'.",
+      "How far all engines are from the formulas: 'lobelia verify references --json FILE'.",
       [](auto& t) { t.kind("agreement"); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/text.hpp"
 #include "records/agreement.hpp"
+#include "records/bench.hpp"
 #include "records/cluster.hpp"
 #include "records/comparison.hpp"
 #include "records/conversion.hpp"
@@ -37,7 +38,7 @@ constexpr std::array<Kind, sizeof...(T)> kinds_of() {
 }
 
 constexpr auto kKinds =
-    kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Conversion,
+    kinds_of<Agreement, Bench, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Conversion,
              ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
              FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
              LobeSearch, Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
@@ -114,13 +115,13 @@ const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
     for (auto* const define :
-         {define_agreement_tables,    define_chart_tables,      define_cluster_tables,
-          define_comparison_tables,   define_conversion_tables, define_cost_tables,
-          define_farm_tables,         define_gltf_tables,       define_highlight_tables,
-          define_lobe_search_tables,  define_model_tables,      define_page_tables,
-          define_paper_tables,        define_profile_tables,    define_project_tables,
-          define_render_tables,       define_result_tables,     define_scene_tables,
-          define_shader_check_tables, define_stability_tables})
+         {define_agreement_tables, define_bench_tables,        define_chart_tables,
+          define_cluster_tables,   define_comparison_tables,   define_conversion_tables,
+          define_cost_tables,      define_farm_tables,         define_gltf_tables,
+          define_highlight_tables, define_lobe_search_tables,  define_model_tables,
+          define_page_tables,      define_paper_tables,        define_profile_tables,
+          define_project_tables,   define_render_tables,       define_result_tables,
+          define_scene_tables,     define_shader_check_tables, define_stability_tables})
       define(all);
     return all;
   }();
@@ -166,9 +167,11 @@ std::string reference_index() {
 std::string typescript_text() {
   Definitions definitions;
   for (const Struct* page :
-       {&struct_type<GridPage>(), &struct_type<CellPage>(), &struct_type<PackedPicture>(),
-        &struct_type<PixelRuns>(), &struct_type<InlinedPage>(), &struct_type<StabilityPage>(),
-        &struct_type<PaperPage>(), &struct_type<ExplorerPage>()})
+       {&struct_type<GridPage>(), &struct_type<GridColumns>(), &struct_type<CellPage>(),
+        &struct_type<PackedPicture>(), &struct_type<PixelRuns>(), &struct_type<InlinedPage>(),
+        &struct_type<CellIndex>(), &struct_type<CellChunk>(), &struct_type<CellTexts>(),
+        &struct_type<Thumbnails>(), &struct_type<StabilityPage>(), &struct_type<PaperPage>(),
+        &struct_type<ExplorerPage>()})
     definitions.add(*page);
   std::string text =
       "// What the program gives the pages' scripts. Written by `lobelia records --typescript > "

@@ -38,7 +38,7 @@ void define_conversion_tables(Tables& tables) {
     t.key("because", "why it has no highlight").if_any();
   });
   tables.define<Conversion>(
-      "A highlight converted to another model: 'lobelia convert -o FILE'.", [](auto& t) {
+      "A highlight converted to another model: 'lobelia convert --json FILE'.", [](auto& t) {
         t.kind("conversion");
         t.key("reflectance", "head on").within(0, 1);
         t.key("to", "model");
@@ -48,7 +48,7 @@ void define_conversion_tables(Tables& tables) {
         t.key("curves", "over the peak of the one that was converted, by degrees");
       });
   tables.define<ConversionTable>(
-      "Parameters converted over a range: 'lobelia convert -o FILE' without a parameter.",
+      "Parameters converted over a range: 'lobelia convert --json FILE' without a parameter.",
       [](auto& t) {
         t.kind("conversion-table");
         t.key("reflectance", "head on").within(0, 1);

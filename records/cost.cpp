@@ -4,8 +4,6 @@ namespace lobelia::records {
 
 void define_cost_tables(Tables& tables) {
   tables.define<CostError>("A kind of error of a table.");
-  tables.define<CostSeconds>(
-      "Time of one of what the table counts. The spread is half the distance of the quartiles, of the median.");
   tables.define<LobeErrors>("Errors of a lobe by itself.",
                             [](auto& t) { t.all().may_be_nonfinite(); });
   tables.define<CircuitErrors>("Errors of a circuit in fixed point, by source.", [](auto& t) {
@@ -17,6 +15,7 @@ void define_cost_tables(Tables& tables) {
     t.key("work", "by effect");
   });
   tables.define<CostVariant>("A variant of what the table is about.", [](auto& t) {
+    t.key("seconds", "of one of what the table counts");
     t.key("errors").at_least(0).may_be_nonfinite();
     t.key("count", "in place of seconds, where there is nothing to time");
     t.key("errorSpreads", "standard deviations, where something is random").may_be_nonfinite();

@@ -12,11 +12,6 @@ struct CostError {
   std::string id, meaning;
 };
 
-struct CostSeconds {
-  double median = 0, spread = 0, least = 0, most = 0;
-  int rounds = 0;
-};
-
 struct LobeErrors {
   double max = 0, rms = 0, energy = 0;
   std::optional<double> max_at_most;
@@ -46,7 +41,7 @@ struct CostVariant {
   std::string name;
   Named<std::string> settings;
   Named<double> errors;
-  std::optional<CostSeconds> seconds;
+  std::optional<MeasuredRounds> seconds;
   std::optional<double> count;
   std::optional<Named<double>> error_spreads, errors_at_most;
   std::optional<CostFacts> facts;

@@ -33,6 +33,8 @@ void define_farm_tables(Tables& tables) {
   tables.define<Locks>("Whether other machines see the locks in the cache.");
   tables.define<Farm>("The grid, the engines, the cells and their verdicts.", [](auto& t) {
     t.kind("farm");
+    t.key("authors", "of the study, as the grid names them").if_any();
+    t.key("url", "where the study is published").if_any();
     t.key("grid", "file name");
     t.key("cache", "directory, relative to the farm's").if_any();
     t.key("axes", "in the grid's order").items(1);
@@ -70,19 +72,21 @@ void define_farm_tables(Tables& tables) {
   tables.define<StatusCounts>("How many cells there are of each status.");
   tables.define<FailureOfCell>("What failed, and in which cell.",
                                [](auto& t) { t.key("failure", "a class of docs/farm.md"); });
-  tables.define<FarmStatus>("How far a farm is: 'lobelia farm status DIR --json'.", [](auto& t) {
-    t.kind("farm-status");
-    t.key("cells", "how many there are");
-    t.key("cache", "its path");
-    t.key("atWork", "a farm uses the cache now");
-  });
+  tables.define<FarmStatus>("How far a farm is: 'lobelia farm status DIR --json FILE'.",
+                            [](auto& t) {
+                              t.kind("farm-status");
+                              t.key("cells", "how many there are");
+                              t.key("cache", "its path");
+                              t.key("atWork", "a farm uses the cache now");
+                            });
   tables.define<ExplainedPart>("A part of a result's key, then and now.", [](auto& t) {
     t.key("files", "sentences: which files changed, at most five").if_any();
   });
   tables.define<ExplainedJob>("A job, and what its result was made of.",
                               [](auto& t) { t.key("why", "why it is not in the cache").if_any(); });
   tables.define<FarmExplanation>(
-      "Why a cell's results are made again: 'lobelia farm explain DIR CELL --json'.", [](auto& t) {
+      "Why a cell's results are made again: 'lobelia farm explain DIR CELL --json FILE'.",
+      [](auto& t) {
         t.kind("farm-explanation");
         t.key("without", "sentences: why an engine has no result");
       });

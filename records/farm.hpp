@@ -35,7 +35,7 @@ struct Locks {
 };
 
 struct Farm {
-  std::string title, grid, command;
+  std::string title, authors, url, grid, command;
   std::optional<Host> host;
   std::string cache;
   std::optional<Locks> locks;

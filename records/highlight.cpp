@@ -21,6 +21,10 @@ Host this_node() {
   return host;
 }
 
+MeasuredRounds rounds_record(const Times& times) {
+  return {times.median, times.spread, times.least, times.most, times.rounds};
+}
+
 std::string EngineModel::in_short() const {
   if (native.empty()) return expressed.empty() ? "-" : "expressed";
   std::string text = expressed.empty() ? "native" : "both";
@@ -31,6 +35,8 @@ std::string EngineModel::in_short() const {
 
 void define_highlight_tables(Tables& tables) {
   tables.define<Host>("The machine.", [](auto& t) { t.key("name").if_any(); });
+  tables.define<MeasuredRounds>(
+      "What rounds measured. The spread is half the distance of the quartiles, of the median.");
   tables.define<Highlight>("A normalised highlight.", [](auto& t) {
     t.key("exponent").at_least(0);
     t.key("coefficient", "of the radiance").may_be_nonfinite();

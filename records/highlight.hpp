@@ -1,6 +1,7 @@
-// Parts of many records: the machine, the highlight, and how an engine shades one.
+// Parts of many records: the machine, what rounds measured, the highlight, and how an engine shades one.
 #pragma once
 
+#include "core/timing.hpp"
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {
@@ -16,6 +17,13 @@ struct Host {
 Host this_host();
 /// This machine with its name.
 Host this_node();
+
+/// Seconds, or a count or ratio that was taken in rounds.
+struct MeasuredRounds {
+  double median = 0, spread = 0, least = 0, most = 0;
+  int rounds = 0;
+};
+MeasuredRounds rounds_record(const Times& times);
 
 struct Highlight {
   std::string model, lobe, normalisation;

@@ -45,19 +45,20 @@ void define_lobe_search_tables(Tables& tables) {
     t.key("isOnFront", "nearer by 0.5 % than all that are cheaper");
     t.key("touches", "the certificate of the lower bound").if_any();
   });
-  tables.define<LobeSearch>("The cheapest lobes for cos^n: 'lobelia search -o FILE'.", [](auto& t) {
-    t.kind("lobe-search");
-    t.key("leastExponent").at_least(1);
-    t.key("mostExponent", "null: to infinity");
-    t.key("family", "clamped polynomials, reciprocals, bits").one_of(kSearchFamilies);
-    t.key("metric", "that chooses").one_of(kSearchMetrics);
-    t.key("coefficients", "constant or by-n");
-    t.key("chosen", "the lobe that was asked for").if_any();
-    t.key("lobes", "cheapest first");
-    t.key("notProved",
-          "shapes whose best lobe could not be proved, or is none: not among the lobes")
-        .if_any();
-  });
+  tables.define<LobeSearch>(
+      "The cheapest lobes for cos^n: 'lobelia search --json FILE'.", [](auto& t) {
+        t.kind("lobe-search");
+        t.key("leastExponent").at_least(1);
+        t.key("mostExponent", "null: to infinity");
+        t.key("family", "clamped polynomials, reciprocals, bits").one_of(kSearchFamilies);
+        t.key("metric", "that chooses").one_of(kSearchMetrics);
+        t.key("coefficients", "constant or by-n");
+        t.key("chosen", "the lobe that was asked for").if_any();
+        t.key("lobes", "cheapest first");
+        t.key("notProved",
+              "shapes whose best lobe could not be proved, or is none: not among the lobes")
+            .if_any();
+      });
 }
 
 }  // namespace lobelia::records

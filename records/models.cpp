@@ -35,14 +35,19 @@ void define_model_tables(Tables& tables) {
     t.key("albedoOfLight", "of a beam");
   });
   tables.define<Models>(
-      "All models, lobes, normalisations and parameters: 'lobelia models --json'.", [](auto& t) {
+      "All models, lobes, normalisations and parameters: 'lobelia models --json FILE'.",
+      [](auto& t) {
         t.kind("models");
         t.key("lobeFamilies", "lobes that a number chooses");
       });
   tables.define<TableErrors>(
       "How far an interpolated value may be off: of the peak for a curve, else relative.");
-  tables.define<ModelTable>("A model, for the explorer.");
-  tables.define<LobeTable>("A lobe over the exponents. docs/decisions/0015 defines the tables.",
+  tables.define<ModelTable>("A model, for the explorer.", [](auto& t) {
+    t.key(
+        "weights",
+        "1 / coefficient is the integral of lobe(s) (w0 + w1 s + w2 s^2 + w3 s^3), s = 0 to sMax");
+  });
+  tables.define<LobeTable>("A lobe over the exponents. docs/records.md defines the tables.",
                            [](auto& t) {
                              t.key("unit", "curves are in multiples of it");
                              t.keys({"reach", "halfWidth"}).unit("radians");
@@ -52,11 +57,15 @@ void define_model_tables(Tables& tables) {
     t.key("paper", "coefficients; missing if the paper has none").if_any();
     t.key("unit", "seen and lit are logarithms in multiples of it");
     t.key("lit", "missing if it is the same as seen").if_any();
+    t.key("shader", "positions in shaderParts, which joined are the exported GLSL");
+    t.key("paperShader", "with the paper's coefficient; missing if it has none").if_any();
   });
   tables.define<HighlightTables>(
       "Every highlight over the exponent, as numbers that a page can interpolate.", [](auto& t) {
         t.kind("highlight-tables");
         t.key("mostGrazing").unit("radians");
+        t.key("shaderParts",
+              "paragraphs of 'lobelia export --language glsl --coefficient argument'");
       });
 }
 

@@ -70,10 +70,14 @@ struct ModelTable {
   std::string name, title, angle;
   bool applies_cosine = false, has_shadowing = false;
   std::string normalised, coefficient;
+  Operations operations;
+  double s_max = 0;
+  std::vector<double> weights;
 };
 
 struct LobeTable {
   std::string name, title, formula;
+  Operations operations;
   int order = 0;
   double unit = 0;
   std::vector<double> reach, half_width;
@@ -85,6 +89,7 @@ struct HighlightTable {
   std::vector<double> exact, paper;
   double unit = 0;
   std::vector<std::vector<std::int64_t>> seen, lit;
+  std::vector<std::int64_t> shader, paper_shader;
 };
 
 struct HighlightTables {
@@ -95,6 +100,7 @@ struct HighlightTables {
   std::vector<ModelTable> models;
   std::vector<LobeTable> lobes;
   std::vector<HighlightTable> highlights;
+  std::vector<std::string> shader_parts;
 };
 
 void define_model_tables(Tables& tables);

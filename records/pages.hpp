@@ -25,23 +25,33 @@ struct GridStatus {
   std::string name, word, mark;
 };
 
-struct GridPicture {
-  std::string src;
-  int width = 0, height = 0;
+struct GridChange {
+  std::string name, word, mark;
 };
 
-struct GridCell {
-  std::string id, label, href, status;
-  std::vector<int> at;
-  Named<std::vector<std::optional<double>>> metrics;
-  std::optional<GridPicture> picture;
-  std::vector<GridPicture> beside;
-  std::string finding;
+struct GridPicture {
+  std::string file;
+  int width = 0, height = 0;
 };
 
 struct GridMetric {
   std::string id, title, meaning, unit;
   bool more_is_better = false;
+};
+
+struct GridColumn {
+  int engine = 0;
+  std::string values, limits;
+};
+
+struct GridColumns {
+  int metric = 0;
+  std::vector<GridColumn> engines;
+};
+
+struct GridLabel {
+  int cell = 0;
+  std::string label;
 };
 
 struct GridPage {
@@ -50,8 +60,16 @@ struct GridPage {
   std::vector<GridEngine> engines;
   GridLayout layout;
   std::vector<GridStatus> statuses;
-  std::vector<GridCell> cells;
   std::vector<GridMetric> metrics;
+  std::vector<GridPicture> pictures;
+  std::vector<std::string> ids;
+  std::vector<int> at, status, picture, place;
+  std::vector<GridLabel> labels;
+  std::vector<std::vector<int>> beside;
+  std::vector<std::string> findings;
+  std::vector<GridChange> changes;
+  std::vector<int> change;
+  std::vector<GridColumns> columns;
 };
 
 struct ShownPicture {
@@ -62,11 +80,12 @@ struct ShownPicture {
 struct ShownEngine {
   std::string name, title, short_title;
   std::optional<ShownPicture> picture;
-  std::string float_script;
+  std::string float_script, before_of;
 };
 
 struct ShownMap {
   std::string id, title, meaning, script;
+  double top = 1;
 };
 
 struct ShownComparison {
@@ -93,6 +112,7 @@ struct ShownProfile {
   std::vector<double> degrees;
   std::vector<ShownZone> zones;
   std::vector<ShownCurve> curves;
+  std::vector<std::string> from_formula;
 };
 
 struct CellPage {
@@ -117,6 +137,37 @@ struct PackedPicture {
   double least = 0;
   bool predicted = false;
   std::string planes;
+};
+
+struct PackedShown {
+  std::string file;
+  int width = 0, height = 0, way = 0;
+};
+
+struct PackedCell {
+  std::string id;
+  CellPage page;
+  std::vector<PackedShown> pictures;
+  std::vector<int> counts;
+};
+
+struct CellTexts {
+  std::vector<std::string> pieces;
+  std::vector<PackedCell> cells;
+};
+
+struct CellChunk {
+  std::string texts, order, curves;
+  std::vector<std::string> pixels;
+};
+
+struct CellIndex {
+  std::vector<std::string> first;
+};
+
+struct Thumbnails {
+  std::vector<int> widths, heights, ways;
+  std::string pixels;
 };
 
 struct StabilitySummary {

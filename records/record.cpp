@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/sha256.hpp"
@@ -93,4 +94,70 @@ void parse(const Struct& type, std::string_view text, const std::string& where, 
 }
 
 }  // namespace detail
+
+namespace {
+
+/// Changes the texts of a record, and remembers whether any has changed.
+class TextChanger {
+ public:
+  explicit TextChanger(const TextChange& change) : change_(change) {}
+
+  /// False: the value is left out. Throws std::length_error if it is nested too deeply.
+  bool apply(Json& value) {
+    if (value.is_string()) return apply_to_text(value);
+    if (!value.is_structured()) return true;
+    if (depth_ == kMostDepth) throw std::length_error("");
+    ++depth_;
+    if (value.is_array())
+      for (Json& element : value) apply(element);
+    else
+      apply_to_members(value);
+    --depth_;
+    return true;
+  }
+  bool has_changed() const { return has_changed_; }
+
+ private:
+  static constexpr int kMostDepth = 100;
+
+  bool apply_to_text(Json& value) {
+    const auto& text = value.get_ref<const std::string&>();
+    const std::optional<std::string> now = change_(keys_, text);
+    if (now && *now == text) return true;
+    has_changed_ = true;
+    if (now) value = *now;
+    return now.has_value();
+  }
+
+  void apply_to_members(Json& object) {
+    for (auto member = object.begin(); member != object.end();) {
+      keys_.push_back(member.key());
+      const bool is_kept = apply(member.value());
+      keys_.pop_back();
+      member = is_kept ? std::next(member) : object.erase(member);
+    }
+  }
+
+  const TextChange& change_;
+  std::vector<std::string> keys_;
+  int depth_ = 0;
+  bool has_changed_ = false;
+};
+
+}  // namespace
+
+std::optional<std::string> with_texts(std::string_view record, const TextChange& change) try {
+  Json json = Json::parse(record);
+  const bool is_sealed = detail::origin_of(json, record).seal == Origin::Seal::kFits;
+  TextChanger changer(change);
+  changer.apply(json);
+  if (!changer.has_changed()) return std::string(record);
+  if (is_sealed) json[kSealKey] = seal_of(Json::parse(json.dump()));
+  return detail::indented(json);
+} catch (const Json::exception&) {
+  return std::nullopt;
+} catch (const std::length_error&) {
+  return std::nullopt;
+}
+
 }  // namespace lobelia::records

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -80,5 +82,13 @@ void require_kind(const Json& json, std::string_view kind, const Place& place);
 
 /// The SHA-256 of the record without its seal. It reveals changes of the record, as the hashes in it reveal changes of files.
 std::string seal_of(Json record);
+
+/// What becomes of a text at these keys of a record, which do not count places in lists; nothing: it is left out.
+using TextChange = std::function<std::optional<std::string>(std::span<const std::string> keys,
+                                                            const std::string& text)>;
+
+/// The record with changed texts, sealed again if its seal fitted. The same bytes if no text changes, nothing if it is no
+/// JSON.
+std::optional<std::string> with_texts(std::string_view record, const TextChange& change);
 
 }  // namespace lobelia::records

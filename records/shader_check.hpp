@@ -51,7 +51,7 @@ struct ShaderHalf {
 struct ShaderCost {
   std::string name;
   std::optional<std::size_t> instructions;
-  std::optional<CostSeconds> seconds;
+  std::optional<MeasuredRounds> seconds;
 };
 
 struct ShaderCheck {

@@ -12,6 +12,7 @@
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "reference_scenes/replicates.hpp"
+#include "renderer/scene/scene_format.hpp"
 
 namespace lobelia {
 namespace {
@@ -120,6 +121,7 @@ bool Engine::averages(const Scene& scene) const {
 
 std::string Engine::why_not(const Scene& scene, const ReferenceOptions& options,
                             const AxisValues& axes) const {
+  if (std::string why = whole_picture_problem(scene.film); !why.empty()) return why;
   if (info().whole_scenes) return why_not_whole(scene, axes);
   if (options.own_transport) return why_not_transport(scene);
   if (std::string why = why_not_comparable(scene); !why.empty()) return why;

@@ -3,10 +3,30 @@
 #include <embree3/rtcore.h>
 
 #include "core/error.hpp"
+#include "core/module.hpp"
 #include "renderer/chord.hpp"
 
 namespace lobelia {
 namespace {
+
+LOBELIA_MODULE_FUNCTION(embree_module, rtcAttachGeometry);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcCommitGeometry);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcCommitScene);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcGetDeviceError);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcIntersect1);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcNewDevice);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcNewGeometry);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcNewScene);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcOccluded1);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcReleaseDevice);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcReleaseGeometry);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcReleaseScene);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcSetGeometryBoundsFunction);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcSetGeometryIntersectFunction);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcSetGeometryOccludedFunction);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcSetGeometryUserData);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcSetGeometryUserPrimitiveCount);
+LOBELIA_MODULE_FUNCTION(embree_module, rtcSetSceneFlags);
 
 /// Embree's boxes and rays are float32. They are relative to the middle of all spheres, so that no coordinate is
 /// beyond twice the extent, and boxes are wider by this share of it: some sixteen roundings.

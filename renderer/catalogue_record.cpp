@@ -6,6 +6,7 @@
 
 #include "core/constants.hpp"
 #include "renderer/albedo.hpp"
+#include "renderer/models/catalogue.hpp"
 #include "renderer/scene/scene_format.hpp"
 
 namespace lobelia {
@@ -111,6 +112,7 @@ records::LobeTable lobe_table(LobeId lobe, std::span<const double> exponents) {
   table.name = info(lobe).name;
   table.title = info(lobe).title;
   table.formula = info(lobe).formula;
+  table.operations = operations_record(operations(lobe));
   table.order = lobe.order;
   table.unit = lobe.order > 0 ? kRootUnit : kLogarithmUnit;
   for (const double n : exponents) {
@@ -134,10 +136,27 @@ records::LobeTable lobe_table(LobeId lobe, std::span<const double> exponents) {
 }
 
 records::ModelTable model_table(ModelId model) {
+  struct Integral {
+    EnergyIntegral energy;
+    double share;
+  };
+  static constexpr auto kIntegrals = map_types<Integral>(HWY_NAMESPACE::Models{}, []<class M>() {
+    return Integral{M::kEnergy, M::kShare};
+  });
+  const auto& [energy, share] = kIntegrals.at(model.index);
   const ModelInfo& m = info(model);
-  return {std::string(m.name), std::string(m.title), std::string(angle_name(m.angle)),
-          m.applies_cosine,    m.has_shadowing,      std::string(name(m.normalised)),
-          exact_formula(model)};
+  records::ModelTable table{std::string(m.name),
+                            std::string(m.title),
+                            std::string(angle_name(m.angle)),
+                            m.applies_cosine,
+                            m.has_shadowing,
+                            std::string(name(m.normalised)),
+                            exact_formula(model),
+                            operations_record(operations(model)),
+                            energy.s_max,
+                            {}};
+  for (const double weight : energy.weights) table.weights.push_back(2 * kPi / share * weight);
+  return table;
 }
 
 /// Albedos over incidences from grazing to normal.

@@ -230,11 +230,12 @@ std::string identifier(const LobeId& lobe) {
   return name;
 }
 
-std::string_view family(const LobeId& lobe) {
-  static constexpr auto kNames =
-      map_types<std::string_view>(LobesById{}, []<class L>() { return L::kInfo.name; });
-  return kNames.at(lobe.index);
+const LobeInfo& family_info(const LobeId& lobe) {
+  static constexpr auto kInfos =
+      map_types<LobeInfo>(LobesById{}, []<class L>() { return L::kInfo; });
+  return kInfos.at(lobe.index);
 }
+std::string_view family(const LobeId& lobe) { return family_info(lobe).name; }
 
 std::strong_ordering operator<=>(const LobeId& a, const LobeId& b) {
   const auto key = [](const LobeId& id) {

@@ -112,6 +112,8 @@ const LobeInfo& info(const LobeId& id);
 std::string identifier(const LobeId& lobe);
 /// "cs" for cs16; the name of a lobe that is in no family.
 std::string_view family(const LobeId& lobe);
+/// With k for the order of a member.
+const LobeInfo& family_info(const LobeId& lobe);
 std::string_view name(Normalisation normalisation);
 std::string_view name(NormalisedQuantity normalised);
 

@@ -4,17 +4,16 @@
 
 namespace lobelia {
 
-double nearest_surface(const Lamp& lamp, const Scene& scene) {
+double nearest_surface(const Lamp& lamp, const Scene& scene, double closeness) {
   const Light light = light_of(lamp);
   double nearest = std::numeric_limits<double>::infinity();
-  const double close = closeness(scene);
   for (const Sphere& sphere : scene.spheres) {
     const double distance = length(lamp.position - sphere.center) - sphere.radius;
-    if (distance > 0 && !lies_on(light, sphere, close)) nearest = std::min(nearest, distance);
+    if (distance > 0 && !lies_on(light, sphere, closeness)) nearest = std::min(nearest, distance);
   }
   for (const Plane& plane : scene.planes) {
     const double distance = std::abs(dot(lamp.position - plane.point, plane.normal));
-    if (distance > 0 && !lies_on(light, plane, close)) nearest = std::min(nearest, distance);
+    if (distance > 0 && !lies_on(light, plane, closeness)) nearest = std::min(nearest, distance);
   }
   return std::isfinite(nearest) ? nearest : 1.0;
 }
@@ -42,9 +41,10 @@ double peak_bound(const Scene& scene, const std::vector<Light>& lights,
     add(plane.checker_material);
   }
   double irradiance = 0;
+  const double close = closeness(scene);
   for (const Light& light : lights) {
     if (const auto lamp = find_near_lamp(light)) {
-      const double distance = nearest_surface(*lamp, scene);
+      const double distance = nearest_surface(*lamp, scene, close);
       irradiance += max_component(lamp->strength) / (distance * distance);
     } else {
       irradiance += max_component(strength(light));

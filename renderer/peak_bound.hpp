@@ -6,7 +6,8 @@
 namespace lobelia {
 
 /// Distance from a near lamp to the nearest surface that it can light; 1 if there is none.
-double nearest_surface(const Lamp& lamp, const Scene& scene);
+/// `closeness` is the scene's.
+double nearest_surface(const Lamp& lamp, const Scene& scene, double closeness);
 
 /// Upper bound of the radiance that the lights can bring to the picture, directly or by mirrors. `shadowing` is the largest
 /// factor of a model's shadowing in it, where that is known; else it is the largest there is, at grazing angles.

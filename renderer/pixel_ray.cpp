@@ -7,12 +7,6 @@
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
-namespace {
-
-/// The angle between unit vectors, without the cancellation of acos near 0.
-double angle_between(Vec3 a, Vec3 b) { return 2 * std::atan2(length(a - b), length(a + b)); }
-
-}  // namespace
 
 std::string beyond_single_rays(const Scene& scene) {
   std::string found = beyond_delta_lights(scene);

@@ -30,7 +30,8 @@ double modulus(const Highlight& highlight, double absolute, double relative) {
   };
   const auto change = [&](double chord) {
     const double step = absolute + relative * chord;
-    return value(std::max(0.0, chord - step)) - value(chord + step);
+    // The step is infinite where half vectors may vanish, but no chord is longer than 2, and lobe_value() ends there.
+    return value(std::max(0.0, chord - step)) - value(std::min(2.0, chord + step));
   };
   // On the lobe's scale, a chord of 1/sqrt(n), 64 points find the steepest place to a few per cent. The right angle,
   // where every lobe ends, is one more point.

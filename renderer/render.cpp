@@ -9,10 +9,12 @@
 #include <atomic>
 #include <chrono>
 
+#include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/threads.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/scene/scene_format.hpp"
 #include "renderer/tile.hpp"
 
 namespace lobelia {
@@ -24,10 +26,14 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Rows that are rendered together for a sink: some 4 million pixels.
-int band_rows(const Film& film) {
-  const int rows = std::max(1, (4 << 20) / film.width);
-  return std::max(kTileSide, rows / kTileSide * kTileSide);
+/// Rows that are rendered together for a sink.
+int band_rows(const Film& film, int pixels) {
+  return std::max(kTileSide, pixels / film.width / kTileSide * kTileSide);
+}
+
+void require_whole_picture(const Film& film, std::string_view what) {
+  if (const std::string problem = whole_picture_problem(film); !problem.empty())
+    throw Error(ExitCode::kInput, fmt::format("{}{}", what, problem));
 }
 
 class Render {
@@ -85,11 +91,12 @@ class Render {
   template <class F>
   void in_bands(const F& f) {
     if (!sink_) {
+      require_whole_picture(scene_.film, "");
       result_.image = Image(width(), height());
       f(0, height(), result_.image.values().data());
       return;
     }
-    const int rows = std::min(band_rows(scene_.film), height());
+    const int rows = std::min(band_rows(scene_.film, options_.band_pixels), height());
     std::vector<float> buffers[2];
     oneapi::tbb::task_group writing;
     for (int y0 = 0, band = 0; y0 < height() && !interrupted(); y0 += rows, ++band) {
@@ -109,12 +116,14 @@ class Render {
     const FusedRenderer renderer(scene_, result_.plan);
     std::atomic<int> done{0};
     in_bands([&](int y0, int y1, float* rgb) {
-      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(y0, y1, 8),
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(
+                                    y0, y1, std::size_t(FusedRenderer::rows_of_task(width()))),
                                 [&](const oneapi::tbb::blocked_range<int>& rows) {
                                   if (interrupted()) return;
                                   renderer.render_rows(rows.begin(), rows.end(),
                                                        rgb + std::size_t(3) * std::size_t(width()) *
-                                                                 std::size_t(rows.begin() - y0));
+                                                                 std::size_t(rows.begin() - y0),
+                                                       !sink_);
                                   report(double(done += rows.end() - rows.begin()) / height());
                                 });
     });
@@ -146,6 +155,7 @@ class Render {
 
   /// Takes a few samples of all pixels, then as many again, until that is enough.
   void in_rounds() {
+    require_whole_picture(scene_.film, "a target error or a time limit: ");
     const int most =
         options_.target_error ? options_.max_samples.value_or(kMostSamples) : all_samples();
     Frame frame(width(), height(), tiles_->negative_weight());

@@ -22,7 +22,9 @@ struct RenderOptions {
   EffectPolicy effects = EffectPolicy::kAsCalledFor;
   std::optional<Precision> precision;  ///< none: the plan chooses
   Experiment experiment = {};
-  bool allow_fused = true;                  ///< for simple pictures; it does not change the picture
+  bool allow_fused = true;  ///< for simple pictures; it does not change the picture
+  /// Pixels that are rendered together for a RowSink, rounded to rows of tiles; it does not change the picture.
+  int band_pixels = 4 << 20;
   std::function<void(double)> on_progress;  ///< fraction done, from any thread, not in order
 
   /// With a target or a time limit, samples are taken in rounds, each as many as all before, until the estimated
@@ -50,7 +52,8 @@ struct RenderResult {
 
 /// Gives the same picture for the same scene, bit for bit, with any number of threads (with a time limit: for the
 /// same number of samples). Throws Error(kInterrupted) on Ctrl-C, and whatever the sink throws. With a sink, hands
-/// the picture over in rows and holds only some of them in memory, unless samples are taken in rounds.
+/// the picture over in rows and holds only some of them in memory, unless samples are taken in rounds. Throws
+/// Error(kInput) where the whole picture would be over kMaxImagePixels.
 RenderResult render(const Scene& scene, const RenderOptions& options, const RowSink& sink = {});
 
 /// Renders that a standard error is computed from, and its degrees of freedom.

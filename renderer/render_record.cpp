@@ -1,5 +1,7 @@
 #include "renderer/render_record.hpp"
 
+#include <fmt/format.h>
+
 #include "core/version.hpp"
 #include "renderer/formula.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -42,6 +44,22 @@ records::Plan plan_record(const Plan& plan) {
           plan.precision_reason,
           plan.kernel,
           {plan.camera_rays, plan.max_shadow_rays, plan.max_mirror_rays, plan.max_scattered_rays}};
+}
+
+std::string plan_text(const Plan& plan, const Scene& scene) {
+  std::string text;
+  for (const EffectDecision& effect : plan.effects)
+    text += fmt::format("{:<15}{:<4}{}\n", effect.name, effect.on ? "on" : "off", effect.reason);
+  text += fmt::format("{:<19}{}\n{:<19}{}\n", "precision", plan.precision_reason, "kernel",
+                      plan.kernel);
+  const auto add = [&](const char* kind, bool at_most, std::uint64_t rays) {
+    text += fmt::format("{:<19}{}{}\n", kind, at_most && rays > 0 ? "at most " : "", rays);
+  };
+  add("camera rays", plan.first_samples < scene.sampler.sample_count, plan.camera_rays);
+  add("shadow rays", true, plan.max_shadow_rays);
+  add("mirror rays", true, plan.max_mirror_rays);
+  add("scattered rays", true, plan.max_scattered_rays);
+  return text;
 }
 
 records::Highlight highlight_record(const Highlight& highlight) {

@@ -22,6 +22,8 @@ records::Render render_record(const Scene& scene, const RenderResult& result,
 
 /// The effects with their reasons, and bounds of the rays.
 records::Plan plan_record(const Plan& plan);
+/// The same as lines for a reader.
+std::string plan_text(const Plan& plan, const Scene& scene);
 
 records::Highlight highlight_record(const Highlight& highlight);
 records::Rays rays_record(const Work& work);

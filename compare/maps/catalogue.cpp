@@ -8,6 +8,7 @@
 #include "compare/metrics/code_values.hpp"
 #include "compare/metrics/delta_e_itp.hpp"
 #include "compare/metrics/flip_error.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -17,8 +18,10 @@ template <class Difference>
 std::vector<float> largest_of_channels(const MetricInput& input, Difference difference) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   std::vector<float> map(input.a.pixel_count());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    map[i / 3] = std::max(map[i / 3], difference(a[i], b[i]));
+  in_parts(map.size(), 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i)
+      map[i / 3] = std::max(map[i / 3], difference(a[i], b[i]));
+  });
   return map;
 }
 
@@ -29,11 +32,13 @@ std::vector<float> absolute(const MetricInput& input) {
 std::vector<float> mean_signed(const MetricInput& input) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   std::vector<float> map(input.a.pixel_count());
-  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
-    double sum = 0;
-    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += double(a[i]) - double(b[i]);
-    map[pixel] = float(sum / 3);
-  }
+  in_parts(map.size(), 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t pixel = begin; pixel < end; ++pixel) {
+      double sum = 0;
+      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += double(a[i]) - double(b[i]);
+      map[pixel] = float(sum / 3);
+    }
+  });
   return map;
 }
 
@@ -57,12 +62,20 @@ std::vector<float> yiq_map(const MetricInput& input) {
   return yiq_differences(input.shown_a, input.shown_b);
 }
 
+std::vector<float> map_of(const PixelDifferences& differences) {
+  std::vector<float> map(differences.values.size());
+  in_parts(map.size(), sizeof(float), [&](std::size_t begin, std::size_t end) {
+    std::copy_n(differences.values.data() + begin, end - begin, map.data() + begin);
+  });
+  return map;
+}
+
 std::vector<float> ciede2000_map(const MetricInput& input) {
-  return ciede2000_of_pixels(input.shown_a, input.shown_b).values;
+  return map_of(ciede2000_of_pixels(input.shown_a, input.shown_b));
 }
 
 std::vector<float> delta_e_itp_map(const MetricInput& input) {
-  return delta_e_itp_of_pixels(input.shown_a, input.shown_b).values;
+  return map_of(delta_e_itp_of_pixels(input.shown_a, input.shown_b));
 }
 
 std::vector<float> flip_ldr_map(const MetricInput& input) {

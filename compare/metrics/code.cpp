@@ -5,6 +5,8 @@
 //               in reading order, from 0; mean: over all of them.
 // Input:        DisplayLight (linear, clipped).
 // On request:   one step of 8 bits is the rounding of the file, so it says little of a float picture.
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "compare/metrics/code_values.hpp"
@@ -22,22 +24,37 @@ constexpr MetricOutput kCodeOutputs[] = {
      "mean difference of 8-bit sRGB code values", "In steps of an 8-bit picture."}};
 
 void measure_code(const MetricInput& input, std::span<double> values) {
-  const std::vector<std::uint8_t> a = code_values(input.shown_a), b = code_values(input.shown_b);
-  int largest = 0;
-  std::size_t where = 0;
+  struct Row {
+    int largest = 0;
+    std::size_t where = 0;
+    std::int64_t sum = 0, count = 0;
+  };
+  const auto width = std::size_t(input.a.width());
+  std::vector<Row> rows(std::size_t(input.a.height()));
+  oneapi::tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+    Row& row = rows[y];
+    const std::vector<std::uint8_t> a = code_values(input.shown_a, int(y)),
+                                    b = code_values(input.shown_b, int(y));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (!input.in_region(width * y + i / 3)) continue;
+      const int difference = std::abs(int(a[i]) - int(b[i]));
+      if (difference > row.largest) row.where = i / 3;
+      row.largest = std::max(row.largest, difference);
+      row.sum += difference;
+      ++row.count;
+    }
+  });
+  values[0] = values[1] = values[2] = 0;
   std::int64_t sum = 0, count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!input.in_region(i / 3)) continue;
-    const int difference = std::abs(int(a[i]) - int(b[i]));
-    if (difference > largest) where = i / 3;
-    largest = std::max(largest, difference);
-    sum += difference;
-    ++count;
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    if (rows[y].largest > values[0]) {
+      values[0] = rows[y].largest;
+      values[1] = double(rows[y].where);
+      values[2] = double(y);
+    }
+    sum += rows[y].sum;
+    count += rows[y].count;
   }
-  const auto width = std::size_t(std::max(input.a.width(), 1));
-  values[0] = largest;
-  values[1] = double(where % width);
-  values[2] = double(where / width);
   values[3] = double(sum) / double(std::max<std::int64_t>(count, 1));
 }
 

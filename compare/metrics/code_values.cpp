@@ -41,24 +41,33 @@ class Encoder {
 template <class Difference>
 std::vector<float> differences(const DisplayLight& a, const DisplayLight& b,
                                Difference difference) {
-  const std::vector<std::uint8_t> codes_a = code_values(a), codes_b = code_values(b);
+  const auto width = std::size_t(a.width());
   std::vector<float> map(a.pixel_count());
-  for (std::size_t i = 0; i < map.size(); ++i)
-    map[i] = float(difference(codes_a.data() + 3 * i, codes_b.data() + 3 * i));
+  oneapi::tbb::parallel_for(0, a.height(), [&](int y) {
+    const std::vector<std::uint8_t> codes_a = code_values(a, y), codes_b = code_values(b, y);
+    for (std::size_t x = 0; x < width; ++x)
+      map[std::size_t(y) * width + x] =
+          float(difference(codes_a.data() + 3 * x, codes_b.data() + 3 * x));
+  });
   return map;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> code_values(const DisplayLight& shown) {
+std::vector<std::uint8_t> code_values(const DisplayLight& shown, int y) {
   static const Encoder encoder;
-  const std::size_t values = 3 * std::size_t(shown.width());
+  std::vector<float> rgb(3 * std::size_t(shown.width()));
+  shown.fill(y, 0, rgb);
+  std::vector<std::uint8_t> codes(rgb.size());
+  std::ranges::transform(rgb, codes.begin(), [](float light) { return encoder.code(light); });
+  return codes;
+}
+
+std::vector<std::uint8_t> code_values(const DisplayLight& shown) {
   std::vector<std::uint8_t> codes(3 * shown.pixel_count());
   oneapi::tbb::parallel_for(0, shown.height(), [&](int y) {
-    std::vector<float> rgb(values);
-    shown.fill(y, 0, rgb);
-    std::ranges::transform(rgb, codes.begin() + std::ptrdiff_t(values * std::size_t(y)),
-                           [](float light) { return encoder.code(light); });
+    const std::vector<std::uint8_t> row = code_values(shown, y);
+    std::ranges::copy(row, codes.begin() + std::ptrdiff_t(row.size() * std::size_t(y)));
   });
   return codes;
 }

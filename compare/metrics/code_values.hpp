@@ -10,6 +10,8 @@ namespace lobelia {
 /// Three values a pixel, from 0 to 255: the shown light, encoded by the curve of IEC 61966-2-1 and rounded. An 8-bit sRGB
 /// file that is shown at exposure 0 gives its own values.
 std::vector<std::uint8_t> code_values(const DisplayLight& shown);
+/// Those of row y, 3 * width.
+std::vector<std::uint8_t> code_values(const DisplayLight& shown, int y);
 
 /// One difference a pixel: the largest of the three channels, in code values.
 std::vector<float> code_differences(const DisplayLight& a, const DisplayLight& b);

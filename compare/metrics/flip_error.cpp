@@ -1,6 +1,5 @@
 #include "compare/metrics/flip_error.hpp"
 
-#include <hwy/aligned_allocator.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "compare/metrics/flip_kernels.hpp"
+#include "core/aligned.hpp"
 
 namespace lobelia {
 namespace {
@@ -62,7 +62,7 @@ class FlipTileRows {
   int filtered_;  ///< rows above this one have been filtered along
   int next_;      ///< row that next() returns
   std::size_t padded_, extended_;
-  hwy::AlignedFreeUniquePtr<float[]> memory_;
+  AlignedFloats memory_;
   float *rgb_, *planes_;
   FlipColours in_;
   FlipFiltered out_;
@@ -83,7 +83,7 @@ FlipTileRows::FlipTileRows(const DisplayLight& shown, const FlipFilters& filters
   constexpr std::size_t kIn = 3 + sizeof(in_) / sizeof(float*),
                         kOut = sizeof(out_) / sizeof(float*);
   const std::size_t size = kIn * extended_ + kPlanes * kept + kOut * padded_;
-  memory_ = hwy::AllocateAligned<float>(size);
+  memory_ = aligned_floats(size);
   float* free = memory_.get();
   const auto take = [&](std::size_t count) { return std::exchange(free, free + count); };
   rgb_ = take(3 * extended_);

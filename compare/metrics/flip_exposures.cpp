@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "compare/metrics/metric.hpp"
+#include "compare/metrics/pixel_differences.hpp"
 #include "core/error.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -31,28 +33,34 @@ int count_of_exposures(double start_stops, double stop_stops) {
 
 HdrExposures automatic_exposures(const Image& reference, const HdrExposures& asked) {
   const std::span<const float> values = reference.values();
-  std::vector<float> luminances;
-  luminances.reserve(reference.pixel_count());
-  for (std::size_t i = 0; i < values.size(); i += 3)
-    luminances.push_back(0.2126f * values[i] + 0.7152f * values[i + 1] + 0.0722f * values[i + 2]);
+  std::vector<float, ZeroedMemory<float>> luminances(reference.pixel_count());
+  bool finite = true;
+  float largest = 0;
+  std::size_t dark = 0;  // pixels that are not above 0
+  in_parts(luminances.size(), 4 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      luminances[i] =
+          0.2126f * values[3 * i] + 0.7152f * values[3 * i + 1] + 0.0722f * values[3 * i + 2];
+      finite = finite && std::isfinite(luminances[i]);
+      largest = std::max(largest, luminances[i]);
+      dark += !(luminances[i] > 0);
+    }
+  });
   if (luminances.empty()) throw Error(ExitCode::kInput, "the pictures have no pixels");
-  if (!std::ranges::all_of(luminances, [](float l) { return std::isfinite(l); }))
+  if (!finite)
     throw Error(ExitCode::kInput,
                 "the automatic range of exposures needs a reference without a NaN or an infinity");
-  const float largest = std::ranges::max(luminances);
-  // With a small highlight on black, the median of all pixels is 0 and the tool's range is infinite.
-  const auto middle_of = [&] { return luminances.begin() + std::ptrdiff_t(luminances.size() / 2); };
-  std::nth_element(luminances.begin(), middle_of(), luminances.end());
-  if (!(*middle_of() > 0)) std::erase_if(luminances, [](float l) { return !(l > 0); });
-  if (luminances.empty())
+  if (!(largest > 0))
     throw Error(ExitCode::kInput,
                 "the automatic range of exposures needs a reference with a pixel above 0");
-  // The upper of the two middle values, like the tool.
-  const auto middle = middle_of();
-  std::nth_element(luminances.begin(), middle, luminances.end());
+  // The upper of the two middle values, like the tool. With a small highlight on black, the median of all pixels is 0
+  // and the tool's range is infinite; then only those above 0 count.
+  const std::size_t count = luminances.size();
+  const bool is_dark = dark > count / 2;
+  const float middle = nth_value(luminances, is_dark ? dark + (count - dark) / 2 : count / 2);
   const float light = light_shown_as(kShown, asked.curve);
   const float start = asked.given_start ? float(asked.start_stops) : std::log2(light / largest),
-              stop = asked.given_stop ? float(asked.stop_stops) : std::log2(light / *middle);
+              stop = asked.given_stop ? float(asked.stop_stops) : std::log2(light / middle);
   HdrExposures exposures = asked;
   exposures.start_stops = start;
   exposures.stop_stops = stop;

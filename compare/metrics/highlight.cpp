@@ -16,6 +16,7 @@
 
 #include "compare/highlight_region.hpp"
 #include "core/constants.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -46,19 +47,24 @@ Sums sums_over(const Image& image, std::span<const std::uint8_t> highlight) {
             double(values[3 * pixel + 2])) /
            3;
   };
+  const auto for_each_pixel = [&](const auto& visit) {
+    in_parts(highlight.size(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t pixel = begin; pixel < end; ++pixel)
+        if (highlight[pixel] != 0) visit(pixel);
+    });
+  };
   double largest = 0;
-  for (std::size_t pixel = 0; pixel < highlight.size(); ++pixel)
-    if (highlight[pixel] != 0) largest = std::max(largest, mean_at(pixel));
+  for_each_pixel([&](std::size_t pixel) { largest = std::max(largest, mean_at(pixel)); });
   Sums sums;
   const auto width = std::size_t(image.width());
-  for (std::size_t pixel = 0; pixel < highlight.size(); ++pixel) {
+  for_each_pixel([&](std::size_t pixel) {
     const double light = mean_at(pixel) - kHighlightShare * largest;
-    if (highlight[pixel] == 0 || !(light > 0)) continue;
+    if (!(light > 0)) return;
     sums.light += light;
     sums.squares += light * light;
     sums.x += light * double(pixel % width);
     sums.y += light * double(pixel / width);
-  }
+  });
   return sums;
 }
 

@@ -28,16 +28,18 @@ void measure_outliers(const MetricInput& input, std::span<double> values) {
   const double floor = input.tolerance->of_peak * peak_value(input.b);
   const std::vector<std::uint8_t>& edges = input.tolerance->edges;
   std::int64_t outliers = 0, off_edge = 0;
-  for (std::size_t i = 0; i < a.size(); i += 3) {
-    if (!input.in_region(i / 3)) continue;
-    bool outside = false;
-    for (std::size_t j = i; j < i + 3; ++j) {
-      const double reference = b[j];
-      outside |= std::abs(double(a[j]) - reference) > relative * std::abs(reference) + floor;
+  in_parts(a.size() / 3, 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
+      if (!input.in_region(i / 3)) continue;
+      bool outside = false;
+      for (std::size_t j = i; j < i + 3; ++j) {
+        const double reference = b[j];
+        outside |= std::abs(double(a[j]) - reference) > relative * std::abs(reference) + floor;
+      }
+      outliers += outside;
+      off_edge += outside && !edges.empty() && edges[i / 3] == 0;
     }
-    outliers += outside;
-    off_edge += outside && !edges.empty() && edges[i / 3] == 0;
-  }
+  });
   values[0] = double(outliers);
   values[1] = double(off_edge);
 }

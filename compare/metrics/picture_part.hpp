@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/metrics/metric.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 
@@ -13,12 +14,14 @@ template <class Visit>
 std::size_t for_each_value(const MetricInput& input, Visit visit) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   std::size_t count = 0;
-  for (std::size_t pixel = 0; pixel < a.size() / 3; ++pixel) {
-    if (!input.in_region(pixel)) continue;
-    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
-      visit(double(a[i]), double(b[i]), pixel);
-    count += 3;
-  }
+  in_parts(a.size() / 3, 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t pixel = begin; pixel < end; ++pixel) {
+      if (!input.in_region(pixel)) continue;
+      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+        visit(double(a[i]), double(b[i]), pixel);
+      count += 3;
+    }
+  });
   return count;
 }
 

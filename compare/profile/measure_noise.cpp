@@ -51,6 +51,19 @@ double deviation(std::vector<double> values) {
 
 }  // namespace
 
+PictureNoise noise_of_replicates(Image& image, std::vector<Image> others) {
+  others.push_back(std::move(image));
+  // The error of the mean of the channels: whether these share their noise shows in the pictures.
+  std::vector<Image> grey;
+  for (const Image& picture : others) {
+    Image& one = grey.emplace_back(picture.width(), picture.height());
+    for (std::size_t i = 0; i < picture.pixel_count(); ++i)
+      std::ranges::fill(one.values().subspan(3 * i, 3), float(radiance_at(picture, i)));
+  }
+  image = mean_of_replicates(others, false).image;
+  return mean_of_replicates(grey, false).noise;
+}
+
 Field radiance_errors(const PictureNoise& noise) {
   const Image& error = noise.standard_error;
   Field field{error.width(), error.height(), std::vector<double>(error.pixel_count())};

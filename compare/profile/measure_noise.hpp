@@ -13,6 +13,10 @@ namespace lobelia {
 /// add up.
 Field radiance_errors(const PictureNoise& noise);
 
+/// The noise of the mean of R, G and B, by how the picture and independent others of the same thing scatter. The picture
+/// becomes the mean of all.
+PictureNoise noise_of_replicates(Image& image, std::vector<Image> others);
+
 struct PixelNoise {
   std::vector<double> error;  ///< of each pixel, independent from pixel to pixel
   bool shared = false;        ///< or else all with the same sign

@@ -141,6 +141,10 @@ NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) 
     throw Error(ExitCode::kInput, "noise cannot be told from fewer than two pictures");
   const Image& first = replicates.front();
   for (const Image& image : replicates) require_same_size(image, first);
+  for (const Image& image : replicates.subspan(1))
+    if (std::ranges::equal(image.values(), first.values()))
+      throw Error(ExitCode::kInput,
+                  "this picture is the same in every value; render it with another seed");
   const double n = double(replicates.size());
   Image mean(first.width(), first.height()), error(first.width(), first.height());
   for (std::size_t i = 0; i < mean.values().size(); ++i) {

@@ -41,6 +41,9 @@ struct PictureNoise {
   std::string layer = {};     ///< of the picture's file that says it; empty for other files
 };
 
+/// Degrees of freedom of the standard errors that `lobelia reference --standard-error` writes.
+inline constexpr double kFreedomOfErrors = 15;
+
 /// Noise from a picture of standard errors. Throws Error(kInput) if a value is negative or not finite, or there are no
 /// pixels, and Error(kUsage) for less than one degree of freedom.
 PictureNoise noise_of_standard_errors(const Image& standard_error, double freedom, bool shared);

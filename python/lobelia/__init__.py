@@ -19,7 +19,7 @@ import os
 import pathlib
 import warnings as _warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,11 +36,11 @@ from ._errors import (
 )
 from ._errors import Warning as Warning  # not in __all__, where it would hide Python's
 from ._lobes import Lobe, albedo, catalogue, coefficient, lobe, lobes, models, radiance
-from ._record import Comparison, Picture, Record
+from ._record import Comparison, ComparisonSet, Picture, Record
 
 __version__ = _lobelia.version
 __all__ = [
-    "Comparison", "EngineError", "Error", "InputError", "InternalError", "Lobe", "NoResourcesError",
+    "Comparison", "ComparisonSet", "EngineError", "Error", "InputError", "InternalError", "Lobe", "NoResourcesError",
     "OutputError", "Picture", "Record", "UsageError", "albedo", "catalogue", "coefficient",
     "compare", "cost", "engines", "farm", "lobe", "lobes", "models", "profile", "radiance", "read",
     "reference", "render", "scene_xml", "scenes", "write",
@@ -134,7 +134,7 @@ def reference(scene: SceneLike, engine: str, **options: Any) -> Picture:
     """Has a reference engine render the scene (docs/agreement.md). Raises EngineError if it is missing or fails.
 
     `engine` is one of `engines()`. Options: those of `render` that replace what the scene says; `program`, the
-    engine's path; `precision`, `shading`, `points`, `point_seed`, `threads`, `time_limit` in seconds.
+    engine's path; `precision`, `shading`, `points`, `threads`, `time_limit` in seconds.
 
     >>> reference(scenes()["head_on"], "analytic", width=16, height=16).shape
     (16, 16, 3)
@@ -156,6 +156,19 @@ def _limits(limits: Limits) -> List[str]:
     return [limits] if isinstance(limits, str) else list(limits)
 
 
+@overload
+def compare(
+    a: Optional[PathLike] = None,
+    b: Optional[PathLike] = None,
+    metrics: Union[str, Sequence[str], None] = None,
+    limits: Limits = None,
+    *,
+    warnings: Limits = None,
+    default_limits: bool = True,
+    progress: Progress = None,
+    **options: Any,
+) -> Any: ...
+@overload
 def compare(
     a: PictureLike,
     b: PictureLike,
@@ -164,8 +177,20 @@ def compare(
     *,
     warnings: Limits = None,
     default_limits: bool = True,
+    progress: Progress = None,
     **options: Any,
-) -> Comparison:
+) -> Comparison: ...
+def compare(
+    a: Optional[PictureLike] = None,
+    b: Optional[PictureLike] = None,
+    metrics: Union[str, Sequence[str], None] = None,
+    limits: Limits = None,
+    *,
+    warnings: Limits = None,
+    default_limits: bool = True,
+    progress: Progress = None,
+    **options: Any,
+) -> Union[Comparison, ComparisonSet]:
     """Compares picture `a` with the reference `b`: metrics, and a verdict with its reasons.
 
     Each is a path or an array (height, width, 3) of floats, linear light. An array is copied once, to float32, because
@@ -176,6 +201,10 @@ def compare(
     `exposures`, `a_replicate`, `a_error` and more; `layer`, `all_layers` and `ignore_alpha` for two files.
 
     The result is true if the verdict is pass or same. It has `metrics`, `limits`, `maps` and `why`.
+
+    Two folders or sequences give a ComparisonSet, by the rules of the command line (docs/comparing.md). So do
+    `pattern` and `sets`, which say how names make pairs; `pairs`, a table of files; `also_accept`; and `project`, a
+    lobelia.toml. `progress` is called with the fraction of a set that is done.
 
     Metrics do not look at Ctrl-C: KeyboardInterrupt comes when the comparison is done.
 
@@ -193,7 +222,23 @@ def compare(
     if metrics is not None:
         given["metrics"] = metrics if isinstance(metrics, str) else ",".join(metrics)
     given["no_default_limits"] = not default_limits
-    return Comparison(_lobelia.compare(a, b, given))
+    done = _lobelia.compare(a, b, given, progress)
+    return ComparisonSet(done) if isinstance(done, _lobelia.ComparedSet) else Comparison(done)
+
+
+Replicates = Union[PictureLike, Sequence[Any], None]
+
+
+def _with_noise(
+    picture: PictureLike, error: Optional[PictureLike], replicates: Replicates
+) -> Tuple[PictureLike, Optional[PictureLike], List[Any]]:
+    if error is not None and replicates is not None:
+        raise UsageError("the noise of a picture is either its error or its replicates")
+    if replicates is None:
+        return picture, error, []
+    if isinstance(replicates, (list, tuple)):
+        return picture, error, list(replicates)
+    return picture, error, [replicates]
 
 
 def profile(
@@ -206,6 +251,10 @@ def profile(
     at: Optional[Tuple[float, float]] = None,
     region: Optional[Tuple[int, int, int, int]] = None,
     least: float = 0.1,
+    replicate: Replicates = None,
+    error: Optional[PictureLike] = None,
+    b_replicate: Replicates = None,
+    b_error: Optional[PictureLike] = None,
     **overrides: Any,
 ) -> Record:
     """Measures the highlights of a picture: peak, widths, energy and curve (docs/profiles.md).
@@ -215,6 +264,10 @@ def profile(
     the upper left corner chooses one, `region` = (x, y, width, height) is where to look, and `least` is the share of
     the brightest highlight below which others are left out.
 
+    Figures have standard errors. They are better if the noise is known: `replicate` is another, independent picture of
+    the same from as many samples, or a list of these. The picture becomes the mean of all. Or `error` is the picture of
+    its standard errors. `b_replicate` and `b_error` are those of the reference.
+
     The kind of the record is profile or profiles with a scene, blob or blobs without. Pictures are named a and b.
 
     >>> image = render(scenes()["oblique_45"])
@@ -222,7 +275,11 @@ def profile(
     >>> round(one.images["a"].half_width_degrees, 2)
     8.42
     """
-    pictures = [image] if reference is None else [image, reference]
+    pictures = [_with_noise(image, error, replicate)]
+    if reference is not None:
+        pictures.append(_with_noise(reference, b_error, b_replicate))
+    elif b_error is not None or b_replicate is not None:
+        raise UsageError("b_error and b_replicate need a reference")
     if scene is None:
         if light is not None or sphere is not None or overrides:
             raise UsageError("light, sphere and overrides need a scene")

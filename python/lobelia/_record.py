@@ -119,6 +119,18 @@ def _rows(values: Dict[str, Any]) -> List[Dict[str, Any]]:
             }
             for name, value in values["metrics"].items()
         ]
+    if values.get("kind") == "comparison-set":
+        return [
+            {
+                "name": pair["name"],
+                "verdict": pair.get("comparison", {}).get("verdict", "error"),
+                **{
+                    name: float(value)
+                    for name, value in pair.get("comparison", {}).get("metrics", {}).items()
+                },
+            }
+            for pair in values["pairs"]
+        ]
     if "tables" in values:
         return [
             {
@@ -256,6 +268,41 @@ class Comparison(Record):
 
     def _repr_png_(self) -> bytes:
         return self.map_png("ciede2000")
+
+
+class ComparisonSet(Record):
+    """The record of a set of pairs, with a verdict over all of them.
+
+    Each of `pairs` has its name and its comparison. `missing` are references without a picture, which fail; `extra` are
+    pictures without a reference, which do not.
+    """
+
+    def __init__(self, compared: _lobelia.ComparedSet) -> None:
+        super().__init__(json.loads(compared.record))
+        self._compared = compared
+
+    @property
+    def passed(self) -> bool:
+        """Whether every pair passes or is known to differ, and no picture is missing."""
+        return self._compared.passed
+
+    def __bool__(self) -> bool:
+        return self.passed
+
+    @property
+    def why(self) -> str:
+        """The counts, as a sentence; empty if it passes."""
+        return "" if self.passed else self._compared.text
+
+    def to_markdown(self) -> str:
+        """What `lobelia compare --markdown` writes: the counts, and what does not pass, the worst first."""
+        return self._compared.markdown
+
+    def __str__(self) -> str:
+        return self._compared.text
+
+    def __repr__(self) -> str:
+        return f"<lobelia comparison set: {self._compared.text}>"
 
 
 class Picture(np.ndarray):  # type: ignore[type-arg]

@@ -58,7 +58,7 @@ def lobelia_compare(request: pytest.FixtureRequest) -> Callable[..., lobelia.Com
                     f"{path}: there is no reference; --lobelia-update writes it", pytrace=False
                 )
             return write(path, image, options)
-        result = lobelia.compare(image, path, **options)
+        result: lobelia.Comparison = lobelia.compare(image, path, **options)
         if result.passed:
             return result
         if update:
@@ -75,6 +75,7 @@ def lobelia_compare(request: pytest.FixtureRequest) -> Callable[..., lobelia.Com
         path.parent.mkdir(parents=True, exist_ok=True)
         is_file = isinstance(image, (str, pathlib.PurePath))
         lobelia.write(path, lobelia.read(image) if is_file else image)
-        return lobelia.compare(image, path, **options)
+        result: lobelia.Comparison = lobelia.compare(image, path, **options)
+        return result
 
     return compare

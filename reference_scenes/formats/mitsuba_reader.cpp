@@ -61,6 +61,7 @@ class MitsubaReader {
       else
         file_.unsupported(node, "it is left out");
     }
+    lights_.check_pairs(root, scene_.lights.size(), scene_.spheres.size() + scene_.planes.size());
     if (!has_camera_)
       source_.error(root, "what remains is no scene: it has no <sensor> that can be read");
     if (scene_.spheres.empty() && scene_.planes.empty())
@@ -116,6 +117,7 @@ class MitsubaReader {
   }
 
   std::optional<Light> envmap(pugi::xml_node node) {
+    if (!lights_.count_environment(node)) return std::nullopt;
     const Values values = file_.values(node, kMitsubaEnvmapParameters, {"transform", "boolean"});
     const auto transform = file_.transform(node);
     if (!transform || !values.contains("filename") || !values["filename"].node) return std::nullopt;

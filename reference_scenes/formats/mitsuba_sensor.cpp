@@ -4,6 +4,7 @@
 
 #include "reference_scenes/formats/mitsuba.hpp"
 #include "reference_scenes/formats/mitsuba_source.hpp"
+#include "renderer/scene/scene_format.hpp"
 
 namespace lobelia {
 namespace {
@@ -123,9 +124,9 @@ class MitsubaSensorReader {
       file_.unsupported(node, "its size and filter are read as those of hdrfilm");
     const Values values = file_.values(node, kMitsubaFilmParameters, {"rfilter", "boolean"});
     const double width = values.number("width"), height = values.number("height");
-    if (width * height > double(kMaxImagePixels))
+    if (width * height > double(kMaxFilmPixels))
       return source_.error(
-          node, fmt::format("{} x {} pixels; allowed: {} in all", width, height, kMaxImagePixels));
+          node, fmt::format("{} x {} pixels; allowed: {} in all", width, height, kMaxFilmPixels));
     scene_.film.width = int(width);
     scene_.film.height = int(height);
     for (const auto child : node.children("rfilter")) read_filter(child);

@@ -1,4 +1,5 @@
 #include "renderer/plan/plan.hpp"
+#include "renderer/scene/scene_format.hpp"
 
 namespace lobelia {
 namespace {
@@ -85,15 +86,25 @@ void leave_out(const Scene& scene, const Light& light, int surface, Occluders& o
 
 }  // namespace
 
+bool occluders_by_surface(const Scene& scene) {
+  // As much work and memory as of the most spheres and planes under the most lights that are always summed.
+  constexpr std::size_t kMostSurfaces = kMaxPairwiseSpheres + kMaxPlanes;
+  const std::size_t surfaces = scene.spheres.size() + scene.planes.size();
+  return scene.spheres.size() <= kMaxPairwiseSpheres &&
+         scene.lights.size() * surfaces * surfaces <=
+             kMaxSummedLights * kMostSurfaces * kMostSurfaces;
+}
+
 std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, const Contacts& contacts,
                                                    EffectPolicy policy) {
   const bool all = policy == EffectPolicy::kAll;
+  const bool by_surface = occluders_by_surface(scene);
   const std::size_t surfaces = scene.spheres.size() + scene.planes.size();
   std::vector<std::vector<Occluders>> found(scene.lights.size());
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    if (scene.spheres.size() > kMaxPairwiseSpheres) {
+    if (!by_surface) {
       Occluders& any = found[l].emplace_back();
-      any.any_sphere = true;
+      any.any_sphere = !scene.spheres.empty();
       for (std::size_t k = 0; k < scene.planes.size(); ++k) any.planes.push_back(int(k));
     } else {
       found[l].resize(surfaces);

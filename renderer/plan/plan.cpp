@@ -58,16 +58,19 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
     plan.any_direction_precision.push_back(asked ? *asked : sufficient_precision(m.highlight, 0));
   // By material and by |L + V|, rounded down to a power of 2^(1/4): a crowd of spheres needs few bounds then.
   std::map<std::pair<int, int>, Precision> known;
-  const bool one_by_one =
-      scene.spheres.size() <= kMaxPairwiseSpheres && scene.camera.aperture_radius == 0;
+  const bool one_by_one = scene.spheres.size() * std::max(kMaxSummedLights, scene.lights.size()) <=
+                              kMaxPairwiseSpheres * kMaxSummedLights &&
+                          scene.camera.aperture_radius == 0;
+  std::array<std::size_t, kPrecisionCount> of_any{};  // surfaces, by the precision of any direction
+  for (const Sphere& sphere : scene.spheres)
+    ++of_any[std::size_t(plan.any_direction_precision[std::size_t(sphere.material)])];
   for (const Light& light : scene.lights) {
     auto& row = plan.precision.emplace_back();
     const auto lamp = find_lamp(light);
+    const bool any = !one_by_one || !lamp;
+    for (std::size_t p = 0; any && p < pairs.size(); ++p) pairs[p] += of_any[p];
     for (const Sphere& sphere : scene.spheres) {
-      if (!one_by_one || !lamp) {
-        ++pairs[std::size_t(plan.any_direction_precision[std::size_t(sphere.material)])];
-        continue;
-      }
+      if (any) break;
       Precision precision = asked.value_or(Precision::kFloat64);
       if (!asked) {
         const double least = min_half_length(scene, *lamp, sphere);
@@ -140,9 +143,17 @@ void expect_rays(const Scene& scene, Plan& plan) {
   const bool by_surface = std::ranges::any_of(plan.strategy, [](const auto& row) {
     return std::ranges::any_of(row, [](LightStrategy s) { return s != LightStrategy::kLight; });
   });
-  std::uint64_t shadowed_lights = 0;
-  for (const auto& row : plan.occluders)
-    shadowed_lights += !std::ranges::all_of(row, &Occluders::empty);
+  std::uint64_t shadowed_lights = 0, shadowed_area = 0, shadowed_lamps = 0;
+  for (std::size_t l = 0; l < plan.occluders.size(); ++l) {
+    const bool shadowed = !std::ranges::all_of(plan.occluders[l], &Occluders::empty);
+    (is_area(scene.lights[l])    ? shadowed_area
+     : is_delta(scene.lights[l]) ? shadowed_lamps
+                                 : shadowed_lights) += shadowed;
+  }
+  shadowed_lights +=
+      plan.draws_area_light ? std::min<std::uint64_t>(1, shadowed_area) : shadowed_area;
+  const std::uint64_t later_lamps =
+      plan.draws_lamp ? std::min<std::uint64_t>(1, shadowed_lamps) : shadowed_lamps;
   // A camera ray may go on as one ray of each kind, and each of those as one of either. Forced effects are traced
   // once.
   const std::uint64_t forced = plan.policy == EffectPolicy::kAll;
@@ -158,7 +169,11 @@ void expect_rays(const Scene& scene, Plan& plan) {
     plan.max_scattered_rays = plan.camera_rays * (shaded + glossy);
   else
     plan.max_scattered_rays = forced * plan.camera_rays;
-  plan.max_shadow_rays = plan.camera_rays * shadowed_lights * shaded;
+  const std::uint64_t at_each =
+      shadowed_lights + shadowed_lamps + (shaded - 1) * (shadowed_lights + later_lamps);
+  plan.max_shadow_rays = plan.camera_rays > 0 && at_each > UINT64_MAX / plan.camera_rays
+                             ? UINT64_MAX
+                             : plan.camera_rays * at_each;
 }
 
 template <EffectOfLight... E>
@@ -192,6 +207,10 @@ Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision>
   decide_precision(scene, precision, plan);
   expect_rays(scene, plan);
   plan.kernel = kernel_text(scene, plan);
+  if (const auto lamps = std::ranges::count_if(scene.lights, is_delta);
+      lamps > std::ptrdiff_t(kMaxSummedLights))
+    plan.kernel += fmt::format("; {} sums the light of all {} lights without a size",
+                               plan.draws_lamp ? "each first point" : "each point", lamps);
   if (std::ranges::any_of(scene.materials,
                           [](const Material& m) { return m.highlight.lobe.formula != nullptr; }))
     plan.kernel += "; slow: a lobe is a formula, computed point by point in float64";
@@ -206,10 +225,13 @@ std::vector<double> min_half_lengths(const Scene& scene) {
   };
   const bool any_direction =
       scene.camera.aperture_radius > 0 || scene.depth.mirror > 0 || scene.depth.glossy > 0;
-  for (const Light& light : scene.lights) {
-    const auto lamp = find_lamp(light);
-    for (const Sphere& sphere : scene.spheres)
-      bound(sphere.material, any_direction || !lamp ? 0 : min_half_length(scene, *lamp, sphere));
+  const bool unknown = any_direction || !std::ranges::all_of(scene.lights, is_delta);
+  for (const Sphere& sphere : scene.spheres) {
+    if (unknown && !scene.lights.empty()) bound(sphere.material, 0);
+    for (const Light& light : scene.lights) {
+      if (unknown) break;
+      bound(sphere.material, min_half_length(scene, lamp_of(light), sphere));
+    }
   }
   for (const Plane& plane : scene.planes) {
     bound(plane.material, 0);

@@ -13,6 +13,8 @@ namespace lobelia {
 inline constexpr std::size_t kMaxPairwiseSpheres = 256;
 /// With more spheres, Embree finds the one that a ray meets.
 inline constexpr std::size_t kMaxLoopSpheres = 24;
+/// With more area lights, or more lights of a single direction, one of them may stand for all.
+inline constexpr std::size_t kMaxSummedLights = 64;
 /// Pictures are rendered in squares of this size, in pixels.
 inline constexpr int kTileSide = 32;
 
@@ -44,7 +46,8 @@ struct Experiment {
     kEven,     ///< all: evenly over the hemisphere, without importance sampling
   };
   Directions directions = Directions::kPlanned;
-  bool shadows = true;  ///< false: nothing stands between a surface and a light
+  bool shadows = true;          ///< false: nothing stands between a surface and a light
+  bool sum_all_lights = false;  ///< true: no light stands for others, however many there are
 };
 
 /// The surfaces that may hide a light from a surface.
@@ -74,6 +77,11 @@ struct Plan {
   const Occluders& occluders_of(std::size_t light, std::size_t surface) const {
     return occluders[light][std::min(surface, occluders[light].size() - 1)];
   }
+  /// Whether one area light is drawn at each point, with a probability that follows what it can bring; otherwise every
+  /// one is sampled. The same for lights of a single direction, at points that a scattered ray has met; at others every
+  /// one is summed, so that no noise comes from them.
+  bool draws_area_light = false, draws_lamp = false;
+
   /// strategy[light][material]; not used where is_delta(light).
   std::vector<std::vector<LightStrategy>> strategy;
 
@@ -122,8 +130,9 @@ Plan make_plan(const Scene& scene, EffectPolicy policy,
 std::vector<double> min_half_lengths(const Scene& scene);
 
 /// occluders[light][surface], spheres first, then planes: the surfaces that may stand between. Conservative: all
-/// others can shadow no point of the surface. With EffectPolicy::kAll every other surface is in it. With more than
-/// kMaxPairwiseSpheres there is one entry for all surfaces, with any_sphere set.
+/// others can shadow no point of the surface. With EffectPolicy::kAll every other surface is in it. Where spheres or
+/// lights are too many for occluders_by_surface() there is one entry for all surfaces: any other may hide the light.
+bool occluders_by_surface(const Scene& scene);
 std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, const Contacts& contacts,
                                                    EffectPolicy policy);
 

@@ -1,5 +1,9 @@
 #include "renderer/scene/element_reader.hpp"
 
+#include <charconv>
+
+#include "core/colour.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -12,6 +16,21 @@ std::string join_words(std::string_view text) {
   for (const auto& word : split(text.substr(0, 200), " \t\n\r"))
     result += (result.empty() ? "" : " ") + word;
   return result;
+}
+
+/// For "#ff8800", as on the web, the linear numbers that it stands for; else "".
+std::string linear_text(std::string_view text) {
+  if (text.size() != 7 || text[0] != '#') return "";
+  std::string numbers;
+  for (std::size_t at = 1; at < 7; at += 2) {
+    int code = 0;
+    if (std::from_chars(text.data() + at, text.data() + at + 2, code, 16).ptr !=
+        text.data() + at + 2)
+      return "";
+    numbers +=
+        fmt::format("{}{:.4g}", numbers.empty() ? "" : ", ", srgb_decoded(float(code) / 255));
+  }
+  return fmt::format(" (in linear light it is '{}')", numbers);
 }
 
 std::string allowed_range(const Parameter& p) {
@@ -38,16 +57,30 @@ std::vector<pugi::xml_node> ElementReader::elements(pugi::xml_node parent) {
   return result;
 }
 
-void ElementReader::expect_tag(pugi::xml_node node, Tags allowed) {
+void ElementReader::expect_tag(pugi::xml_node node) {
+  const auto allowed = find_element(scene_elements(), node.parent().name()).child_tags();
   if (std::ranges::find(allowed, node.name()) == allowed.end()) unknown_element(node, allowed);
+}
+
+void ElementReader::check_attributes(pugi::xml_node node) {
+  source_.check_attributes(node, find_element(scene_elements(), node.name()).attribute_names());
+}
+
+Values ElementReader::read_parameters(pugi::xml_node element, std::span<const Parameter> table) {
+  return read_parameters(element, table,
+                         find_element(scene_elements(), element.name()).child_tags());
 }
 
 void ElementReader::unknown_element(pugi::xml_node node,
                                     std::span<const std::string_view> allowed) {
   if (source_.full()) return source_.count_error();
-  source_.error(node, fmt::format("unknown element <{}> in <{}>; allowed: {}{}",
+  const bool is_variable = std::string_view(node.name()) == "default";
+  source_.error(node, fmt::format("unknown element <{}> in <{}>; allowed: {}{}{}",
                                   printable(node.name()), printable(node.parent().name()),
-                                  join(allowed), did_you_mean(node.name(), allowed)));
+                                  join(allowed), did_you_mean(node.name(), allowed),
+                                  is_variable ? "; a scene has no variables, but a grid can vary "
+                                                "its values (docs/grid_format.md)"
+                                              : ""));
 }
 
 const ElementFormat* ElementReader::format_of(pugi::xml_node node,
@@ -84,7 +117,8 @@ std::optional<Values::Value> ElementReader::parse(pugi::xml_node node, const Par
                     : triple                              ? "is not three numbers"
                                                           : "is not one number");
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!parse_number(parts[i], value.numbers[i])) return complain("is not a finite number");
+    if (!parse_number(parts[i], value.numbers[i]))
+      return complain("is not a finite number" + linear_text(text));
     if (value.numbers[i] < parameter.min || value.numbers[i] > parameter.max)
       return complain("is out of range");
     if (parameter.type == ParameterType::kInteger &&

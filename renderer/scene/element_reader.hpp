@@ -52,14 +52,17 @@ std::vector<std::string> split_numbers(std::string_view text);
 /// Notes errors in the source, and goes on with a harmless value.
 class ElementReader {
  public:
-  using Tags = std::initializer_list<std::string_view>;
+  using Tags = const std::vector<std::string_view>&;
 
   explicit ElementReader(XmlSource& source) : source_(source) {}
   XmlSource& source() { return source_; }
 
   /// The children that are elements. Text between them is an error: a forgotten bracket.
   std::vector<pugi::xml_node> elements(pugi::xml_node parent);
-  void expect_tag(pugi::xml_node node, Tags allowed);
+  /// These three check an element of a scene by the table of its elements.
+  void expect_tag(pugi::xml_node node);
+  void check_attributes(pugi::xml_node node);
+  Values read_parameters(pugi::xml_node element, std::span<const Parameter> table);
   /// The format with the type that the element's attribute names; null after an error.
   const ElementFormat* format_of(pugi::xml_node node, std::span<const ElementFormat> formats);
   /// Reads the parameters of an element. Skips children with a tag in `nested`.

@@ -53,11 +53,16 @@ std::vector<std::string> remarks(const Scene& scene) {
   const auto inside_by_more = [close = closeness(scene)](const Sphere& sphere) {
     return std::min(inner_radius(sphere), sphere.radius - close);
   };
+  constexpr std::size_t kMostNamed = 8;
+  std::size_t hidden = 0;
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
     if (const auto lamp = find_near_lamp(scene.lights[l]))
-      if (const auto k = holder(scene, lamp->position, inside_by_more))
+      if (const auto k = holder(scene, lamp->position, inside_by_more); k && ++hidden <= kMostNamed)
         found.push_back(fmt::format(
             "light {} is inside sphere {}, which hides it: it lights nothing outside", l, *k));
+  if (hidden > kMostNamed)
+    found.push_back(
+        fmt::format("{} more lights are inside spheres, which hide them", hidden - kMostNamed));
   return found;
 }
 

@@ -26,7 +26,7 @@ struct Camera {
 };
 
 struct Film {
-  int width = 256, height = 256;  ///< 1..kMaxImageSide each, at most kMaxImagePixels together
+  int width = 256, height = 256;  ///< 1..kMaxImageSide each, at most kMaxFilmPixels together
   Filter filter = {};             ///< used only where sample_count > 1
 };
 

@@ -81,6 +81,47 @@ std::span<const ElementFormat> material_formats() {
   return formats;
 }
 
+std::span<const XmlElement> scene_elements() {
+  static constexpr Parameter kId{"id", ParameterType::kString, "none", 0, 0, "", "its name"};
+  static constexpr auto place = [](std::string_view name, std::string_view meaning) {
+    return Parameter{name, ParameterType::kPoint, "", -kFar, kFar, "", meaning};
+  };
+  static const std::vector<XmlElement> elements{
+      {"scene",
+       "a scene",
+       {{{"version", ParameterType::kString, "", 0, 0, "", "of the format"},
+         {kSceneFormatVersion}}},
+       {{{"sensor"}, 1, 1}, {{"emitter", "bsdf", "shape"}}, {{"integrator"}, 0, 1}}},
+      {"sensor",
+       "the camera",
+       {},
+       {{{"transform"}, 1, 1}, {{"film"}, 0, 1}, {{"sampler"}, 0, 1}},
+       kSensors},
+      {"transform",
+       "where the camera is",
+       {{{"name", ParameterType::kString, "", 0, 0, "", ""}, {"to_world"}}},
+       {{{"lookat"}, 1, 1}}},
+      {"lookat",
+       "where the camera looks",
+       {{place("origin", "the camera's place")},
+        {place("target", "a point in the middle of the view")},
+        {place("up", "a vector that is upright in the picture")}}},
+      {"film", kFilm.meaning, {}, {{{"rfilter"}, 0, 1}}, std::span(&kFilm, 1)},
+      {"rfilter", "how much a sample counts", {}, {}, filter_formats()},
+      {"sampler", kSampler.meaning, {}, {}, std::span(&kSampler, 1)},
+      {"integrator", kIntegrator.meaning, {}, {}, std::span(&kIntegrator, 1)},
+      {"emitter", "a light", {{kId}}, {}, emitter_formats()},
+      {"shape", "a shape", {{kId}}, {{{"bsdf", "ref"}, 1, 2}}, kShapes},
+      {"bsdf", "a material", {{kId}}, {}, material_formats()},
+      {"ref",
+       "the material of that id",
+       {{{"id", ParameterType::kString, "", 0, 0, "", "of a material"}}}},
+  };
+  return elements;
+}
+
+std::string scene_schema() { return xml_schema(scene_elements(), {"bsdf", "ref"}); }
+
 std::string string_choices(const Parameter& p) {
   if (p.name == "filename") return "a picture in the scene file's directory or below it";
   if (p.name == "lobe") return allowed_lobes(true);
@@ -129,8 +170,11 @@ have area lights, mirrors or a lens. `lobelia scene-format` prints this page.
 A point or a vector is `value="x, y, z"` or `x= y= z=`; a colour is one number (grey) or
 three (linear Rec. 709). Right-handed; units and directions: [conventions](conventions.md).
 Errors are reported together, each with its line and column. An element of an unknown type is not
-read further: errors inside it appear once the type is right. Limits: {} MiB,
-{} emitters, {} spheres, {} planes, {} materials, {} pixels. No DOCTYPE and no entities.
+read further: errors inside it appear once the type is right. No DOCTYPE and no entities.
+
+Limits: {} MiB, {} spheres, {} planes, {} materials and {} pixels. There may be {} emitters
+([many lights](#many-lights)), {} of them `constant` or `envmap`. Their number times that of
+spheres and planes is at most {}. Only `lobelia render` takes over {} pixels ([large pictures](scale.md#large-pictures)).
 
 `<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`, and
 may hold one `<integrator>`. The sensor holds `<transform name="to_world">` with one
@@ -138,8 +182,10 @@ may hold one `<integrator>`. The sensor holds `<transform name="to_world">` with
 and one `<sampler>`. A shape holds one `<bsdf>` or `<ref id=>`, or a plane two of them, which
 then alternate as a checker.
 )--",
-      kSceneFormatVersion, kSceneFormatVersion, kMaxSceneBytes >> 20, kMaxLights, kMaxSpheres,
-      kMaxPlanes, kMaxMaterials, kMaxImagePixels);
+      kSceneFormatVersion, kSceneFormatVersion, kMaxSceneBytes >> 20, kMaxSpheres, kMaxPlanes,
+      kMaxMaterials, kMaxFilmPixels, kMaxLights, kMaxEnvironments, kMaxLightsTimesShapes,
+      kMaxImagePixels);
+  text += "\n## Elements\n";
   for (const auto& format : {kPerspective, kThinLens, kFilm}) text += table(format);
   Parameter radius = filter_formats().front().parameters.front();
   radius.default_value = "see below";
@@ -161,6 +207,17 @@ then alternate as a checker.
   for (const std::string_view note :
        map_types<std::string_view>(Lights{}, []<class L>() { return L::kInfo.note; }))
     if (!note.empty()) text += fmt::format("\n{}", note);
+  text += R"--(
+### Many lights
+
+Up to 64 lights with a size (`sphere`, `rectangle`) are sampled one by one at every point. Of more than 64, each point
+draws one, with a probability that follows its power and its distance. The picture is the same on average. Its time
+hardly grows with the number of lights, but its noise does: raise `sample_count`.
+
+`directional` and `point` lights are summed at every point, without noise, so the time grows with their number. Where
+`glossy_depth` is over 0 and there are more than 64 of them, this holds for the first surface only: later points draw
+one. `lobelia plan` says what a scene gets.
+)--";
   for (const auto& format : kShapes) text += table(format);
   text += "\n" + lattice_rule();
   text += table({"bsdf", "MODEL", "a material: a mirror over a highlight over a diffuse base",
@@ -192,6 +249,26 @@ to be finite up to there, 1 at s = 0, nowhere negative, and must not rise: the r
 the exponent of its material. Between them a value below 0, or none, counts as 0, and one above 1 as 1. The
 normalisation is `exact`, with the energy by quadrature.
 
+## Completion and checks in an editor
+
+An editor that knows XML Schema completes names and marks mistakes as you type. [scene.xsd](reference/scene.xsd) is the
+schema of scene files. The package `lobelia` installs it in `/usr/share/lobelia/schemas`. In VS Code, install the extension
+"XML" by Red Hat. Then name the schema on the root element, by its path relative to the file:
+
+```
+<scene xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="scene.xsd" version="1">
+```
+
+Lobelia ignores both attributes. By hand, `xmllint` of the package `libxml2-utils` checks a file:
+
+```sh
+lobelia scene-format --xsd > scene.xsd
+xmllint --noout --schema scene.xsd reference_scenes/scenes/oblique_45.xml
+```
+
+The schema finds less than the program does. It cannot tie a parameter to the element's type: it allows every parameter of
+any `<sensor>` in each `<sensor>`, and the widest of their ranges.
+
 ## Try a lobe
 
 A formula needs neither a scene of its own nor a build: `--formula` gives it to every material. Our picture and that of
@@ -212,6 +289,12 @@ The kernels evaluate a formula one value at a time, far more slowly than a lobe 
 )--",
       kMaxFormulaBytes, kMaxFormulaNodes, kMaxFormulaDepth);
   return text;
+}
+
+std::string whole_picture_problem(const Film& film) {
+  if (std::int64_t{film.width} * film.height <= kMaxImagePixels) return "";
+  return fmt::format("a picture of {} x {} is too large to be held in memory; allowed: {} pixels",
+                     film.width, film.height, kMaxImagePixels);
 }
 
 }  // namespace lobelia

@@ -7,19 +7,28 @@
 #include <string_view>
 
 #include "core/image.hpp"
-#include "core/parameter.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/scene/ranges.hpp"
+#include "renderer/scene/scene.hpp"
+#include "renderer/scene/xml_format.hpp"
 
 namespace lobelia {
 
 inline constexpr std::string_view kSceneFormatVersion = "1";
 inline constexpr std::size_t kMaxSceneBytes = 64u << 20;
-inline constexpr int kMaxLights = 64;
+inline constexpr int kMaxLights = 1 << 16;
+inline constexpr int kMaxEnvironments =
+    64;  ///< of the lights: each is looked at by every ray that leaves the scene
+/// Lights times spheres and planes: each light is looked for on and in each of these.
+inline constexpr std::int64_t kMaxLightsTimesShapes = std::int64_t{1} << 28;
 inline constexpr int kMaxSpheres = 1 << 22;  ///< with those of lattices
 inline constexpr int kMaxPlanes = 16;
 inline constexpr int kMaxMaterials = 1024;
 inline constexpr int kMaxDepth = 64;
+/// Of a film. A picture over kMaxImagePixels is rendered in rows and never held in memory.
+inline constexpr std::int64_t kMaxFilmPixels = std::int64_t{1} << 28;
+/// Why the film's picture is too large to be held in memory, in words; empty if it is not.
+std::string whole_picture_problem(const Film& film);
 /// The mirror depth of a scene with a mirror that does not give one.
 inline constexpr int kDefaultMirrorDepth = 8;
 
@@ -106,16 +115,11 @@ inline constexpr Parameter kHighlightParameters[] = {
      "so that 0 is no mirror at any angle"},
 };
 
-/// An element <tag type="type">.
-struct ElementFormat {
-  std::string_view tag, type, meaning;
-  std::span<const Parameter> parameters;
-};
-
 inline constexpr ElementFormat kPerspective{"sensor", "perspective", "the camera",
                                             kPerspectiveParameters};
 inline constexpr ElementFormat kThinLens{"sensor", "thinlens", "a camera with a lens, and its blur",
                                          kThinLensParameters};
+inline constexpr ElementFormat kSensors[] = {kPerspective, kThinLens};
 inline constexpr ElementFormat kFilm{"film", "hdrfilm", "size of the picture; inside the sensor",
                                      kFilmParameters};
 inline constexpr ElementFormat kSampler{"sampler", "independent", "rays a pixel; inside the sensor",
@@ -136,10 +140,15 @@ std::span<const ElementFormat> filter_formats();
 /// <bsdf type="MODEL"> for every model.
 std::span<const ElementFormat> material_formats();
 
+/// Every element but the parameters, <scene> first.
+std::span<const XmlElement> scene_elements();
+
 /// The allowed values of a string parameter, for messages and tables; "" for a number.
 std::string string_choices(const Parameter& parameter);
 
 /// All of docs/scene_format.md; a test compares the file with it.
 std::string scene_format_document();
+/// All of docs/reference/scene.xsd.
+std::string scene_schema();
 
 }  // namespace lobelia

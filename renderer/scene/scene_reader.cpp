@@ -1,5 +1,7 @@
 #include "core/files.hpp"
+#include "core/shipped_files.hpp"
 #include "renderer/formula.hpp"
+#include "renderer/scene/foreign_format.hpp"
 #include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -15,16 +17,26 @@ class SceneReader {
   Scene read() {
     const auto root = source_.root();
     if (std::string_view(root.name()) != "scene") {
-      source_.error(root, fmt::format("the root element is <{}>; a scene file begins with <scene>",
-                                      printable(root.name())));
+      source_.error(
+          root,
+          fmt::format(
+              "the root element is <{}>; a scene file begins with <scene>{}",
+              printable(root.name()),
+              std::string_view(root.name()) == "grid" ? ". For a grid, type lobelia farm" : ""));
       source_.throw_if_errors();
     }
-    source_.check_attributes(root, {"version"});
+    reader_.check_attributes(root);
     if (const auto version = source_.required(root, "version");
-        !version.empty() && version != kSceneFormatVersion)
+        !version.empty() && version != kSceneFormatVersion) {
+      const bool is_mitsuba = version.find('.') != version.npos;
       source_.error(root.attribute("version"), root,
-                    fmt::format("format version '{}'; this program reads version {}",
-                                printable(version), kSceneFormatVersion));
+                    fmt::format("format version '{}'; this program reads version {}{}",
+                                printable(version), kSceneFormatVersion,
+                                is_mitsuba ? ". If it is a scene of Mitsuba, type lobelia scene "
+                                             "FILE --from mitsuba -o OUT.xml"
+                                           : ""));
+      if (is_mitsuba) source_.throw_if_errors();
+    }
     // Materials first, so that a shape may refer to a later one.
     for (const auto node : root.children("bsdf")) add_material(node, true);
     for (const auto node : reader_.elements(root)) {
@@ -33,10 +45,11 @@ class SceneReader {
       if (tag == "emitter") read_emitter(node);
       if (tag == "shape") read_shape(node);
       if (tag == "integrator" && reader_.once(node, integrators_)) read_integrator(node);
-      reader_.expect_tag(node, {"sensor", "emitter", "bsdf", "shape", "integrator"});
+      reader_.expect_tag(node);
     }
     if (integrators_ == 0 && std::ranges::any_of(scene_.materials, is_mirror))
       scene_.depth.mirror = kDefaultMirrorDepth;
+    lights_.check_pairs(root, scene_.lights.size(), std::size_t(spheres_seen_ + planes_seen_));
     if (sensors_ == 0) source_.error(root, "the scene has no <sensor>; it needs one");
     source_.throw_if_errors();
     return std::move(scene_);
@@ -44,13 +57,11 @@ class SceneReader {
 
  private:
   void read_sensor(pugi::xml_node node) {
-    source_.check_attributes(node, {"type"});
+    reader_.check_attributes(node);
     if (!reader_.once(node, sensors_)) return;
-    static constexpr ElementFormat kSensors[] = {kPerspective, kThinLens};
     const ElementFormat* format = reader_.format_of(node, kSensors);
     if (!format) return;
-    const Values values =
-        reader_.read_parameters(node, format->parameters, {"transform", "film", "sampler"});
+    const Values values = reader_.read_parameters(node, format->parameters);
     scene_.camera.fov_degrees = values.number("fov");
     scene_.camera.principal_point_offset_x = values.number("principal_point_offset_x");
     scene_.camera.principal_point_offset_y = values.number("principal_point_offset_y");
@@ -70,73 +81,75 @@ class SceneReader {
   }
 
   void read_film(pugi::xml_node node) {
-    source_.check_attributes(node, {"type"});
+    reader_.check_attributes(node);
     if (!reader_.format_of(node, std::span(&kFilm, 1))) return;
-    const Values values = reader_.read_parameters(node, kFilm.parameters, {"rfilter"});
+    const Values values = reader_.read_parameters(node, kFilm.parameters);
     scene_.film.width = int(values.number("width"));
     scene_.film.height = int(values.number("height"));
     int filters = 0;
     for (const auto child : node.children("rfilter"))
       if (reader_.once(child, filters)) read_filter(child);
-    if (std::int64_t{scene_.film.width} * scene_.film.height > kMaxImagePixels)
+    if (std::int64_t{scene_.film.width} * scene_.film.height > kMaxFilmPixels)
       source_.error(node, fmt::format("{} x {} pixels; allowed: {} in all", scene_.film.width,
-                                      scene_.film.height, kMaxImagePixels));
+                                      scene_.film.height, kMaxFilmPixels));
   }
 
   void read_filter(pugi::xml_node node) {
-    source_.check_attributes(node, {"type"});
+    reader_.check_attributes(node);
     const ElementFormat* format = reader_.format_of(node, filter_formats());
     if (!format) return;
     scene_.film.filter = *find_filter(format->type);
-    scene_.film.filter.radius =
-        reader_.read_parameters(node, format->parameters, {}).number("radius");
+    scene_.film.filter.radius = reader_.read_parameters(node, format->parameters).number("radius");
   }
 
   void read_integrator(pugi::xml_node node) {
-    source_.check_attributes(node, {"type"});
+    reader_.check_attributes(node);
     if (!reader_.format_of(node, std::span(&kIntegrator, 1))) return;
-    const Values values = reader_.read_parameters(node, kIntegrator.parameters, {});
+    const Values values = reader_.read_parameters(node, kIntegrator.parameters);
     scene_.depth = {int(values.number("mirror_depth")), int(values.number("glossy_depth"))};
   }
 
   void read_sampler(pugi::xml_node node) {
-    source_.check_attributes(node, {"type"});
+    reader_.check_attributes(node);
     if (!reader_.format_of(node, std::span(&kSampler, 1))) return;
-    const Values values = reader_.read_parameters(node, kSampler.parameters, {});
+    const Values values = reader_.read_parameters(node, kSampler.parameters);
     scene_.sampler = {int(values.number("sample_count")), std::uint64_t(values.number("seed"))};
   }
 
   void read_view(pugi::xml_node node) {
-    source_.check_attributes(node, {"name"});
+    reader_.check_attributes(node);
     if (const auto name = source_.required(node, "name"); name != "to_world" && !name.empty())
       source_.error(node.attribute("name"), node,
                     fmt::format("transform '{}'; allowed: to_world", printable(name)));
     int lookats = 0;
     for (const auto child : reader_.elements(node)) {
-      reader_.expect_tag(child, {"lookat"});
+      reader_.expect_tag(child);
       if (std::string_view(child.name()) != "lookat" || !reader_.once(child, lookats)) continue;
-      source_.check_attributes(child, {"origin", "target", "up"});
+      reader_.check_attributes(child);
       read_lookat(child);
     }
     if (lookats == 0) source_.error(node, "<transform> needs a <lookat origin= target= up=>");
   }
 
   void read_lookat(pugi::xml_node node) {
-    const auto triple = [&](const char* name) -> std::optional<Vec3> {
+    const auto triple = [&](const XmlAttribute& attribute) -> std::optional<Vec3> {
+      const Parameter& place = attribute.parameter;
+      const char* const name = place.name.data();
       const std::string text = source_.required(node, name);
       if (!node.attribute(name)) return std::nullopt;
       const auto parts = split_numbers(text);
       std::array<double, 3> n{};
       bool good = parts.size() == 3;
       for (std::size_t i = 0; good && i < 3; ++i)
-        good = parse_number(parts[i], n[i]) && std::abs(n[i]) <= kFar;
+        good = parse_number(parts[i], n[i]) && n[i] >= place.min && n[i] <= place.max;
       if (good) return Vec3{n[0], n[1], n[2]};
       source_.error(node.attribute(name), node,
                     fmt::format("{} '{}' is not three numbers; allowed: {:g} to {:g} each", name,
-                                printable(text), -kFar, kFar));
+                                printable(text), place.min, place.max));
       return std::nullopt;
     };
-    const auto origin = triple("origin"), target = triple("target"), up = triple("up");
+    const auto& places = find_element(scene_elements(), "lookat").attributes;
+    const auto origin = triple(places[0]), target = triple(places[1]), up = triple(places[2]);
     if (!origin || !target || !up) return;
     scene_.camera.origin = *origin;
     scene_.camera.target = *target;
@@ -157,7 +170,7 @@ class SceneReader {
   /// Returns the material's index, or 0 after an error.
   int add_material(pugi::xml_node node, bool needs_id) {
     if (!reader_.within(node, "materials", kMaxMaterials, materials_seen_)) return 0;
-    source_.check_attributes(node, {"type", "id"});
+    reader_.check_attributes(node);
     Material material;
     material.id = node.attribute("id").value();
     if (needs_id && material.id.empty())
@@ -166,7 +179,7 @@ class SceneReader {
       source_.error(node, fmt::format("a second <bsdf> with the id '{}'", printable(material.id)));
     ++materials_seen_;
     if (const ElementFormat* format = reader_.format_of(node, material_formats())) {
-      const Values values = reader_.read_parameters(node, format->parameters, {});
+      const Values values = reader_.read_parameters(node, format->parameters);
       material.highlight.model = *find_model(format->type);
       material.highlight.exponent = values.number("exponent");
       read_lobe(values, node, material.highlight);
@@ -207,7 +220,7 @@ class SceneReader {
   }
 
   void read_shape(pugi::xml_node node) {
-    source_.check_attributes(node, {"type", "id"});
+    reader_.check_attributes(node);
     const ElementFormat* format = reader_.format_of(node, kShapes);
     if (!format) return;
     if (format->type == kPlane.type) read_plane(node);
@@ -218,7 +231,7 @@ class SceneReader {
   void read_sphere(pugi::xml_node node) {
     if (!reader_.within(node, "spheres", kMaxSpheres, spheres_seen_)) return;
     ++spheres_seen_;
-    const Values values = reader_.read_parameters(node, kSphere.parameters, {"bsdf", "ref"});
+    const Values values = reader_.read_parameters(node, kSphere.parameters);
     scene_.spheres.push_back(
         {values.vec3("center"), values.number("radius"), read_materials(node, 1).front()});
   }
@@ -226,14 +239,14 @@ class SceneReader {
   void read_plane(pugi::xml_node node) {
     if (!reader_.within(node, "planes", kMaxPlanes, planes_seen_)) return;
     ++planes_seen_;
-    const Values values = reader_.read_parameters(node, kPlane.parameters, {"bsdf", "ref"});
+    const Values values = reader_.read_parameters(node, kPlane.parameters);
     const auto materials = read_materials(node, 2);
     scene_.planes.push_back({values.vec3("point"), reader_.direction(node, values, "normal"),
                              materials.front(), materials.back(), values.number("checker_size")});
   }
 
   void read_lattice(pugi::xml_node node) {
-    const Values values = reader_.read_parameters(node, kLattice.parameters, {"bsdf", "ref"});
+    const Values values = reader_.read_parameters(node, kLattice.parameters);
     const auto whole = [&](const char* name) { return int(values.number(name)); };
     SphereLattice lattice{whole("columns"),
                           whole("rows"),
@@ -280,7 +293,7 @@ class SceneReader {
   }
 
   int refer(pugi::xml_node node) {
-    source_.check_attributes(node, {"id"});
+    reader_.check_attributes(node);
     const std::string id = source_.required(node, "id");
     const auto found = material_by_id_.find(id);
     if (found != material_by_id_.end()) return found->second;
@@ -307,11 +320,14 @@ class SceneReader {
 
 Scene parse_scene(std::string text, const std::string& file_name,
                   const std::filesystem::path& directory) {
+  if (const std::string what = foreign_format(text); !what.empty())
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", file_name, what));
   XmlSource source(std::move(text), file_name, kMaxSceneBytes);
   return SceneReader(source, directory).read();
 }
 
-Scene read_scene(const std::filesystem::path& path) {
+Scene read_scene(const std::filesystem::path& named) {
+  const std::filesystem::path path = or_shipped(named);
   const std::filesystem::path directory = path.parent_path();
   return parse_scene(read_file(path, kMaxSceneBytes), path.string(),
                      directory.empty() ? "." : directory);

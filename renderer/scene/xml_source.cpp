@@ -11,6 +11,8 @@ namespace lobelia {
 namespace {
 
 constexpr std::size_t kMaxErrors = 20;  // more would hide the first
+/// Editors find the schema by these, on the root element.
+constexpr std::string_view kSchemaAttributes[] = {"xmlns:xsi", "xsi:noNamespaceSchemaLocation"};
 
 }  // namespace
 
@@ -82,6 +84,8 @@ void XmlSource::check_attributes(pugi::xml_node node, std::span<const std::strin
   for (const auto attribute : node.attributes()) {
     const std::string_view name = attribute.name();
     if (std::ranges::find(allowed, name) != allowed.end()) continue;
+    if (node == root() && std::ranges::find(kSchemaAttributes, name) != std::end(kSchemaAttributes))
+      continue;
     if (full()) {
       count_error();
       continue;

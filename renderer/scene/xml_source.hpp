@@ -32,7 +32,7 @@ class XmlSource {
   /// Throws Error(kInput) with error_lines(), if there are any.
   void throw_if_errors() const;
 
-  /// Notes an error for each attribute of `node` that is not one of `allowed`.
+  /// Notes an error for each attribute of `node` that is not one of `allowed`. The root may name its schema.
   void check_attributes(pugi::xml_node node, std::initializer_list<std::string_view> allowed);
   void check_attributes(pugi::xml_node node, std::span<const std::string_view> allowed);
   /// The attribute's value. Notes an error and returns "" if it is missing.

@@ -90,6 +90,7 @@ void spawn_scattered(const PreparedScene& prepared, const Wave& wave, bool one_o
     }
     const std::size_t to = next.count++;
     copy(hits.point, i, next.origin, to);
+    if (prepared.area_tree) copy(hits.normal, i, next.normal_at_origin, to);
     put(-drawn->to_light, next.to_eye, to);
     next.leaves[to] = hits.surface[i];
     next.weight[to] = weight;

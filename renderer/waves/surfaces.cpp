@@ -41,6 +41,22 @@ void hide_behind_planes(const PreparedScene& prepared, std::size_t light, Worksp
   }
 }
 
+/// For hits that each have a light of their own.
+void hide_chosen_behind_planes(const PreparedScene& prepared, Workspace& work) {
+  const Hits& hits = work.hits;
+  for (std::size_t k = 0; k < prepared.scene.planes.size(); ++k) {
+    const int own = int(prepared.scene.spheres.size() + k);
+    std::fill_n(work.visible, hits.count, 1.0);
+    kernels().plane_hides(prepared.scene.planes[k], hits.count, hits.point, work.drawn.to_light,
+                          work.drawn.distance, work.visible);
+    for (std::size_t i = 0; i < hits.count; ++i)
+      if (const int light = work.chosen[i].light;
+          light >= 0 && hits.surface[i] != own && !prepared.plan.lies_on(std::size_t(light), own))
+        work.drawn.factor[i] *= work.visible[i];
+    work.work.of<effects::Ground>() += hits.count;
+  }
+}
+
 /// It is dark inside a sphere. Only a camera in a sphere sees other surfaces there.
 void darken_insides(const PreparedScene& prepared, Wave& wave) {
   for (const int k : prepared.around_camera) {
@@ -51,25 +67,28 @@ void darken_insides(const PreparedScene& prepared, Wave& wave) {
   }
 }
 
+/// Sets the hit's factor to 0 if a sphere or a horizon hides the light. Returns the number of shadow rays.
+std::size_t hide_one_hit(const PreparedScene& prepared, std::size_t light, std::size_t hit,
+                         Workspace& work) {
+  LightSamples& drawn = work.drawn;
+  const int surface = work.hits.surface[hit];
+  const Occluders& occluders = prepared.plan.occluders_of(light, std::size_t(surface));
+  const Vec3 point = get(work.hits.point, hit);
+  if (prepared.plan.lies_on(light, surface) ||
+      std::ranges::any_of(occluders.horizons, [&](const Horizon& h) { return h.is_below(point); }))
+    drawn.factor[hit] = 0;
+  if (occluders.empty()) return 0;
+  if (prepared.accelerator &&
+      prepared.accelerator->blocked(point, get(drawn.to_light, hit), drawn.distance[hit], surface,
+                                    prepared.plan.contacts[light]))
+    drawn.factor[hit] = 0;
+  return 1;
+}
+
 /// Returns the number of shadow rays.
 std::size_t hide_any_surface(const PreparedScene& prepared, std::size_t light, Workspace& work) {
-  const Hits& hits = work.hits;
-  LightSamples& drawn = work.drawn;
   std::size_t rays = 0;
-  for (std::size_t i = 0; i < hits.count; ++i) {
-    const int surface = hits.surface[i];
-    const Occluders& occluders = prepared.plan.occluders_of(light, std::size_t(surface));
-    const Vec3 point = get(hits.point, i);
-    if (prepared.plan.lies_on(light, surface) ||
-        std::ranges::any_of(occluders.horizons,
-                            [&](const Horizon& h) { return h.is_below(point); }))
-      drawn.factor[i] = 0;
-    if (occluders.empty()) continue;
-    ++rays;
-    if (prepared.accelerator->blocked(point, get(drawn.to_light, i), drawn.distance[i], surface,
-                                      prepared.plan.contacts[light]))
-      drawn.factor[i] = 0;
-  }
+  for (std::size_t i = 0; i < work.hits.count; ++i) rays += hide_one_hit(prepared, light, i, work);
   hide_behind_planes(prepared, light, work);
   return rays;
 }
@@ -124,6 +143,16 @@ int material_at(const PreparedScene& prepared, const Wave& wave, std::size_t ray
   const double half_square = 0.5 * (std::floor(dot(from, checker.first) / plane.checker_size) +
                                     std::floor(dot(from, checker.second) / plane.checker_size));
   return half_square != std::floor(half_square) ? plane.checker_material : plane.material;
+}
+
+void hide_chosen(const PreparedScene& prepared, Workspace& work) {
+  std::size_t rays = 0;
+  for (std::size_t i = 0; i < work.hits.count; ++i)
+    if (work.chosen[i].light >= 0)
+      rays += hide_one_hit(prepared, std::size_t(work.chosen[i].light), i, work);
+  if (prepared.plan.on<effects::Shadows>()) hide_chosen_behind_planes(prepared, work);
+  work.work.shadow_rays += rays;
+  work.work.of<effects::Shadows>() += rays;
 }
 
 void hide(const PreparedScene& prepared, std::size_t light, Workspace& work) {

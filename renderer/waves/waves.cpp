@@ -28,7 +28,24 @@ PreparedScene::PreparedScene(const Scene& s, const Plan& p)
     if (length(s.spheres[k].center - s.camera.origin) <=
         outer_radius(s.spheres[k]) + s.camera.aperture_radius)
       around_camera.push_back(int(k));
-  if (s.spheres.size() > kMaxLoopSpheres) accelerator = std::make_unique<Accelerator>(s.spheres);
+  one_by_one = s.spheres.size() <= kMaxLoopSpheres && occluders_by_surface(s);
+  if (s.spheres.size() > kMaxLoopSpheres ||
+      (!s.spheres.empty() && (!one_by_one || p.draws_area_light || p.draws_lamp)))
+    accelerator = std::make_unique<Accelerator>(s.spheres);
+  std::vector<int> area, many_lamps;
+  for (std::size_t l = 0; l < s.lights.size(); ++l)
+    if (p.draws_area_light && is_area(s.lights[l]))
+      area.push_back(int(l));
+    else if (p.draws_lamp && is_delta(s.lights[l]))
+      many_lamps.push_back(int(l)), lamps.push_back(l);
+    else
+      single_lights.push_back(l);
+  const double close = closeness(s);
+  if (p.draws_area_light) {
+    area_tree.emplace(s.lights, area, close);
+    first_of_tree = std::size_t(area.front());
+  }
+  if (p.draws_lamp) lamp_tree.emplace(s.lights, many_lamps, close);
 }
 
 Wave& Workspace::new_wave(int level, Wave::Kind kind) {
@@ -94,7 +111,7 @@ void group(const Wave& wave, const Key& key_of, std::array<int, kChunk>& rays, W
 /// occluders.
 void shade(const PreparedScene& prepared, const Wave& wave, Workspace& work) {
   const int materials = int(prepared.materials.size());
-  const bool one_by_one = prepared.one_by_one();
+  const bool one_by_one = prepared.one_by_one;
   const auto key_of = [&](std::size_t i) {
     const int material = material_at(prepared, wave, i);
     return one_by_one ? int(wave.surface[i]) * materials + material : material;

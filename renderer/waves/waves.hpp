@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "renderer/filter.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/light_tree.hpp"
 #include "renderer/plan/plan.hpp"
 #include "renderer/reflector.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"
@@ -41,7 +43,17 @@ inline void put(Vec3 v, Vec3Chunk& to, std::size_t i) {
 }
 
 /// Pairs of random numbers that a ray takes; kPixel and kLens are the camera's.
-enum Dimension : std::uint32_t { kPixel, kLens, kChoice, kScatter, kDirection, kLight = 8 };
+enum Dimension : std::uint32_t {
+  kPixel,
+  kLens,
+  kChoice,
+  kScatter,
+  kDirection,
+  kAreaLight,     ///< one of many
+  kPointOfLight,  ///< of that one
+  kLamp,          ///< one of many
+  kLight          ///< of light 0, of the others from there on
+};
 struct RandomPairs {
   alignas(64) double u[kChunk]{}, v[kChunk]{};
 };
@@ -68,12 +80,19 @@ struct PreparedScene {
   FilterSampler filter;
   std::vector<PreparedMaterial> materials;
   std::vector<std::unique_ptr<const PreparedLight>> lights;
-  bool any_sized;                            ///< rays may meet a light
-  std::vector<Tangents> checkers;            ///< by plane
-  std::vector<int> around_camera;            ///< spheres that some camera rays may start in
-  std::unique_ptr<Accelerator> accelerator;  ///< null where a loop is faster
-  /// Whether each surface is shaded by itself, with its own occluders.
-  bool one_by_one() const { return !accelerator; }
+  bool any_sized;                                 ///< rays may meet a light
+  std::vector<std::size_t> single_lights;         ///< that no tree may stand for
+  std::vector<std::size_t> lamps;                 ///< that a tree may stand for, at some points
+  std::optional<LightTree> area_tree, lamp_tree;  ///< where the plan draws one of many lights
+  std::vector<Tangents> checkers;                 ///< by plane
+  std::vector<int> around_camera;                 ///< spheres that some camera rays may start in
+  std::unique_ptr<Accelerator> accelerator;       ///< null where a loop is faster
+  std::size_t first_of_tree = 0;                  ///< an area light of the tree
+  bool one_by_one;  ///< each surface is shaded by itself, with its own occluders
+  /// The same for all area lights where one of many is drawn.
+  LightStrategy area_strategy(int material) const {
+    return plan.strategy[first_of_tree][std::size_t(material)];
+  }
   bool all_effects() const { return plan.policy == EffectPolicy::kAll; }
 };
 
@@ -95,6 +114,7 @@ struct Wave {
   /// The density and material of scattered rays, to weigh them against the lights' own draws.
   std::array<double, kChunk> pdf;
   std::array<int, kChunk> material;
+  Vec3Chunk normal_at_origin{};  ///< only where one of many area lights is drawn
 };
 
 /// Hits of a wave that are shaded together: on one material and, where surfaces are few, on one surface.
@@ -123,6 +143,13 @@ struct Workspace {
   RandomPairs random;
   LightSamples drawn;  ///< towards a light, one for each hit
   LightMeetings met;
+  std::array<LightTree::Choice, kChunk> chosen;  ///< one of many lights, for each hit
+  std::vector<std::uint16_t> by_light;           ///< hits, sorted by it
+  std::vector<int> looking;                      ///< rays that may meet one of many lights
+  // Of hits or rays that one of many lights is for.
+  Vec3Chunk part_point{}, part_to_eye{};
+  RandomPairs part_random;
+  LightSamples part_drawn;
   alignas(64) double visible[kChunk]{}, specular[kChunk]{}, n_dot_l[kChunk]{}, fresnel[kChunk]{};
   Vec3Chunk scattered{};
 
@@ -153,6 +180,8 @@ void start(const PreparedScene& prepared, std::span<const PixelSample> samples,
 void trace(const PreparedScene& prepared, Wave& wave, Workspace& work);
 int material_at(const PreparedScene& prepared, const Wave& wave, std::size_t ray);
 void hide(const PreparedScene& prepared, std::size_t light, Workspace& work);
+/// The same for the light of work.chosen at each hit.
+void hide_chosen(const PreparedScene& prepared, Workspace& work);
 
 /// lighting.cpp: adds the radiance of lights that rays cross or end in, and the light that the hits reflect.
 void add_met_lights(const PreparedScene& prepared, const Wave& wave, Workspace& work);

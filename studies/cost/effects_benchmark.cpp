@@ -126,7 +126,7 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
     Variant variant;
     variant.name = one.effect.empty() ? "everything" : "without " + one.effect;
     variant.settings = {{"without", one.effect}};
-    variant.seconds = seconds_record(times[i]);
+    variant.seconds = records::rounds_record(times[i]);
     variant.errors = {{"de2000_p99", comparison.value("ciede2000.p99")},
                       {"de2000_mean", comparison.value("ciede2000.mean")},
                       {"flip_mean", comparison.value("flip.ldr.mean")}};

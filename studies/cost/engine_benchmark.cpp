@@ -158,7 +158,7 @@ Variant measured_contender(Contender& one, const Image& truth,
   Variant variant;
   variant.name = one.name;
   variant.settings = one.settings;
-  variant.seconds = seconds_record(summary(one.seconds));
+  variant.seconds = records::rounds_record(summary(one.seconds));
   variant.errors = {{"max_rel_peak", comparison.value("max_rel_peak")},
                     {"de2000_p99", comparison.value("ciede2000.p99")}};
   records::Named<double> stages;

@@ -102,7 +102,7 @@ Variant measured_lobe(const LobeVariant& variant, const LobeVariantErrors& error
                    {"method", variant.method},
                    {"precision", variant.wide ? "float64" : "float32"},
                    {"lanes", variant.simd ? "SIMD" : "scalar"}};
-  made.seconds = seconds_record(times);
+  made.seconds = records::rounds_record(times);
   made.errors = {{"max", largest.found}, {"rms", errors.all.rms}, {"energy", errors.all.energy}};
   records::CostFacts& facts = made.facts.emplace();
   facts.operations = operations_record(variant.operations);

@@ -118,7 +118,7 @@ Table table_of(const NamedScene& named, const Options& options) {
                                c.precision == Precision::kFloat16 ? " (emulated)" : "");
     variant.settings = {
         {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.first.samples)}};
-    variant.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
+    variant.seconds = records::rounds_record(per(summary(std::move(c.seconds)), megapixels));
     variant.errors = {{"de2000_p99", error("ciede2000.p99")},
                       {"flip", error("flip.ldr.mean")},
                       {"max_rel_peak", error("max_rel_peak")}};

@@ -66,7 +66,7 @@ std::string one_table_text(const Table& table, bool all) {
     return cost_of(*a).median < cost_of(*b).median;
   });
   for (const Variant* variant : order) {
-    const records::CostSeconds cost = cost_of(*variant);
+    const records::MeasuredRounds cost = cost_of(*variant);
     auto& row = shown.rows.emplace_back();
     row = {variant->name, cost.median, ""};
     if (timed) row[1] = short_time_text(cost.median);
@@ -89,11 +89,7 @@ std::string one_table_text(const Table& table, bool all) {
 
 }  // namespace
 
-records::CostSeconds seconds_record(const Times& times) {
-  return {times.median, times.spread, times.least, times.most, times.rounds};
-}
-
-records::CostSeconds cost_of(const Variant& variant) {
+records::MeasuredRounds cost_of(const Variant& variant) {
   if (variant.seconds) return *variant.seconds;
   const double count = variant.count.value_or(0);
   return {count, 0, count, count, 0};
@@ -105,7 +101,7 @@ double setting(const Variant& variant, std::string_view name) {
 }
 
 int clearly_slower(const Variant& a, const Variant& b) {
-  const records::CostSeconds of_a = cost_of(a), of_b = cost_of(b);
+  const records::MeasuredRounds of_a = cost_of(a), of_b = cost_of(b);
   const double noise = of_a.spread * of_a.median + of_b.spread * of_b.median;
   const double difference = of_b.median - of_a.median;
   return difference > noise ? 1 : difference < -noise ? -1 : 0;
@@ -176,7 +172,7 @@ std::string cost_csv(const records::Cost& report) {
   for (const Table& table : report.tables)
     for (std::size_t e = 0; e < table.errors.size(); ++e)
       for (const Variant& variant : table.variants) {
-        const records::CostSeconds cost = cost_of(variant);
+        const records::MeasuredRounds cost = cost_of(variant);
         std::string settings;
         for (const auto& [key, value] : variant.settings)
           settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", key, value);
@@ -202,7 +198,7 @@ std::string cost_chart(const Table& table, std::size_t error) {
       table.id + "-" + id,         table.title, table.per, is_timed(table) ? "" : table.unit,
       table.errors[error].meaning, {}};
   for (const Variant& variant : table.variants) {
-    const records::CostSeconds cost = cost_of(variant);
+    const records::MeasuredRounds cost = cost_of(variant);
     const double* spread = value_of(variant.error_spreads, table, error);
     const double value = variant.errors[error].second;
     times.points.push_back(

@@ -17,9 +17,8 @@ using Table = records::CostTable;
 using Variant = records::CostVariant;
 
 inline bool is_timed(const Table& table) { return table.unit == "s"; }
-records::CostSeconds seconds_record(const Times& times);
 /// A variant's seconds, or its count where there is nothing to time.
-records::CostSeconds cost_of(const Variant& variant);
+records::MeasuredRounds cost_of(const Variant& variant);
 double setting(const Variant& variant, std::string_view name);  ///< as a number; NaN without
 /// 1 if b is slower than a by more than the spread of both, -1 if faster by more, else 0.
 int clearly_slower(const Variant& a, const Variant& b);

@@ -188,7 +188,7 @@ void add_series(const Series& series, const Converged& truth, Table& table) {
     variant.settings = {{"engine", series.engine},
                         {"importance_sampling", series.sampling},
                         {"samples", std::to_string(point.samples)}};
-    variant.seconds = seconds_record(summary(point.seconds));
+    variant.seconds = records::rounds_record(summary(point.seconds));
     variant.errors = {{"rmse_rel", error_of(point, truth)}};
     variant.error_spreads.emplace() = {{"rmse_rel", spread_of(point, truth)}};
     variant.facts = point.facts;

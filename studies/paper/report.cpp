@@ -31,11 +31,13 @@ constexpr char kHead[] = R"(# The paper, measured
 
 <!-- Made by `lobelia verify paper --errata`; a test keeps the two the same. -->
 
-What is true of O. N. Romanyuk, I. V. Abramchuk, S. A. Kyrylashchuk, S. O. Romanyuk, *Modelling of a
-specular component of colour by using energy-correct models of surface reflectivity* (Vinnytsia
-National Technical University). Every figure and claim is recomputed from the formulas as they are
-printed, by quadrature in long double, apart from the renderer's own code. `lobelia verify paper`
-measures it again in 15 to 35 s on one processor. `--json` gives all digits, `--plots` the curves.
+For anyone who uses the paper: which of its claims and figures hold.
+
+O. N. Romanyuk, I. V. Abramchuk, S. A. Kyrylashchuk, S. O. Romanyuk, *Modelling of a specular component of
+colour by using energy-correct models of surface reflectivity* (Vinnytsia National Technical University).
+Every figure is recomputed from the printed formulas by quadrature in long double, apart from the renderer's
+code. `lobelia verify paper` does this again in 15 to 35 s on one processor. `--json` gives all digits,
+`--plots` the curves.
 
 )";
 
@@ -77,13 +79,12 @@ std::string errata_document(std::span<const Claim> claims) {
                           first_figure(claim), claim.verdict});
   }
   return kHead + counts_text(claims) + ".\n\n" + table_markdown(table) +
-         section("Not reproduced", "Claims that a measurement does not bear out.", claims,
+         section("Not reproduced", "Claims that the measurement contradicts.", claims,
                  kNotReproduced) +
-         section("Confirmed", "Claims that hold, with the definition under which they do.", claims,
-                 kConfirmed) +
+         section("Confirmed", "Claims that hold, with the definition under which they hold.",
+                 claims, kConfirmed) +
          section("Found beyond the paper",
-                 "What the paper does not speak of and whoever uses it should know.", claims,
-                 kFound);
+                 "What the paper does not mention and its users should know.", claims, kFound);
 }
 
 records::VerifyPaper paper_record(std::vector<Claim> claims, std::vector<std::string> command,

@@ -13,9 +13,29 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/module.hpp"
 
 namespace lobelia::search {
 namespace {
+
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_add_cols);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_add_rows);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_adv_basis);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_create_prob);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_delete_prob);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_get_col_prim);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_get_row_dual);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_get_status);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_init_smcp);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_scale_prob);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_col_bnds);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_mat_col);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_obj_coef);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_obj_dir);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_row_bnds);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_simplex);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_term_out);
+LOBELIA_MODULE_FUNCTION(glpk_module, glp_unscale_prob);
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 /// The target falls below 1e-26 there, and the lobes must be below their errors.
@@ -101,8 +121,8 @@ bool solve(glp_prob* lp) {
 /// it has a row for each coefficient and a column for each of many inequalities, and so a basis that is small.
 Program deepest(const Shape& shape, const Range& range, const std::vector<Point>& points,
                 double error, double slope) {
-  const std::unique_ptr<glp_prob, decltype(&glp_delete_prob)> program(glp_create_prob(),
-                                                                      glp_delete_prob);
+  const auto end = [](glp_prob* lp) { glp_delete_prob(lp); };
+  const std::unique_ptr<glp_prob, decltype(end)> program(glp_create_prob(), end);
   glp_prob* lp = program.get();
   glp_set_obj_dir(lp, GLP_MAX);
   const int terms = shape.coefficients(), excess = terms + 1;

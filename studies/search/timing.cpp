@@ -1,7 +1,6 @@
 #include "studies/search/timing.hpp"
 
-#include <hwy/aligned_allocator.h>
-
+#include "core/aligned.hpp"
 #include "studies/cost/lobe_variants.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -91,7 +90,7 @@ std::vector<Times> times_of(std::span<const Lobe> lobes, const LobeId& last) {
   constexpr std::size_t kCount = 4096, kRepeats = 32;
   constexpr int kRounds = 31;
   constexpr double kExponent = 64;
-  const auto s = hwy::AllocateAligned<float>(kCount), value = hwy::AllocateAligned<float>(kCount);
+  const auto s = aligned_floats(kCount), value = aligned_floats(kCount);
   for (std::size_t i = 0; i < kCount; ++i) s[i] = float(i) / kCount;
   std::vector<std::function<void()>> cases;
   const auto add = [&](const auto& values) {

@@ -102,7 +102,7 @@ class Costs {
       const auto at = [&](double share) {
         return seconds[std::size_t(share * double(seconds.size() - 1))];
       };
-      record_.costs[k].seconds = records::CostSeconds{
+      record_.costs[k].seconds = records::MeasuredRounds{
           at(0.5), (at(0.75) - at(0.25)) / 2 / std::max(std::abs(at(0.5)), 1e-30), at(0), at(1),
           int(seconds.size())};
     }

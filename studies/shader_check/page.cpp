@@ -7,7 +7,7 @@
 #include "core/base64.hpp"
 #include "core/colour.hpp"
 #include "core/html.hpp"
-#include "core/image_io_module.hpp"
+#include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "core/svg_chart.hpp"
 #include "core/version.hpp"
@@ -23,8 +23,7 @@ namespace {
 constexpr char kPolicy[] = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
 std::string picture_link(const DisplayImage& picture) {
-  const std::vector<std::uint8_t> png = image_io_table().encode_png(picture, {});
-  return "data:image/png;base64," + base64({reinterpret_cast<const char*>(png.data()), png.size()});
+  return "data:image/png;base64," + base64(png_bytes(picture));
 }
 
 void write_picture(Html& html, const DisplayImage& picture, const std::string& words) {

@@ -94,7 +94,26 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"verify"}, 2, "subcommand"},
       {{"verify", "papers"},
        2,
-       "unknown subcommand 'papers'; allowed: paper, stability, references; did you"},
+       "unknown subcommand 'papers' of 'lobelia verify'; allowed: paper, stability, references; did "
+       "you mean 'paper'?"},
+      {{"farm", "stauts"}, 2, "did you mean 'status'?"},
+      {{"farm", "stauts", "out"}, 2, "did you mean 'status'?"},
+      {{"gallery", "sevre", "out"}, 2, "did you mean 'serve'?"},
+      {{"farm", "status", "--josn", "-", "out"}, 2, "did you mean '--json'?"},
+      {{"render", "--sampels", "3"}, 2, "has no option '--sampels'; did you mean '--samples'?"},
+      {{"render", scene, "--normalization=exact"}, 2, "did you mean '--normalisation'?"},
+      {{"render", scene, "-o", "a.exr", "-j", "2"}, 2, "has no option '-j'"},
+      {{"compare", "a.exr", "b.exr", "--noise-seed", "3"}, 2, "use --seed N"},
+      {{"convert", "--exponent", "3", "--to", "ggx", "-o", "a.json"}, 2, "use --json FILE"},
+      {{"search", "--error", "1e-3", "-oa.json"}, 2, "use --json FILE"},
+      {{"reference", scene, "--engine", "povray", "--witness", "any"}, 2, "use --shading NAME"},
+      {{"models", "--json", "--exponent", "3"}, 2, "'--exponent' is an option"},
+      {{"compare", "a.exr", "b.exr", "--html", "-q"}, 2, "'-q' is an option"},
+      {{"farm", "gc", ".", "--max-size", "10"}, 2, "allowed: 0, or a number with B, K, M, G or T"},
+      {{"render", scene, "-o", "a.exr", "--time-limit", "10s"}, 2, "'10s' is not a number"},
+      {{"export", "--language", "GLSL", "phong_rdf"}, 2, "did you mean 'glsl'?"},
+      {{"models", "--json"}, 2, "with --json - it goes to stdout"},
+      {{"plan", "--json", broken}, 2, "is no JSON; allowed: a file to write, or -"},
       {{"verify", "stability", "--lobe", "cs15"}, 2, "--lobe 'cs15' is unknown"},
       {{"models", "--exponent", "nan"}, 2, "allowed: 0.001 to 1e+08"},
       {{"models", "--exponent", "1e9"}, 2, "'1e9' is out of range"},
@@ -117,7 +136,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TemporaryDirectory directory;
   for (const char* command :
-       {"models", "models --json", "engines", "engines --json", "scene-format",
+       {"models", "models --json -", "engines", "engines --json -", "scene-format",
         "compare --list-metrics", "verify paper", "--help", "farm --help"}) {
     const auto result =
         run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());

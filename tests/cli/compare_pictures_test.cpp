@@ -304,5 +304,21 @@ TEST_F(ComparePictures, FramesOfAnAnimationAreLayers) {
   EXPECT_EQ(made["layersInOne"]["b"], Record({"part2", "part2.A", "part3", "part3.A"}));
 }
 
+TEST_F(ComparePictures, LargePicturesTakeLessMemoryThanTheirValues) {
+  for (const char* name : {"head_on", "two_lights"})
+    ASSERT_EQ(run_lobelia({"render", kScenes + name + ".xml", "--width", "8192", "--height", "4096",
+                           "-q", "-o", name + std::string(".exr")},
+                          directory_.path())
+                  .exit_code,
+              0);
+  const auto result =
+      run_lobelia({"compare", "two_lights.exr", "head_on.exr", "--no-default-limits", "--fail",
+                   "max_abs=1e30", "--metrics", "max_abs,rmse,ciede2000,code"},
+                  directory_.path());
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  constexpr std::uint64_t kValues = std::uint64_t{2} * 8192 * 4096 * 3 * sizeof(float);
+  EXPECT_LT(result.peak_memory_bytes, kValues / 2);
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -55,7 +55,8 @@ TEST_F(ConvertCommand, DrawsThePicturesOfThePage) {
 }
 
 TEST_F(ConvertCommand, WritesARecordAndAChart) {
-  const auto result = run("--exponent 32 --to ggx --measure width -o record.json --svg chart.svg");
+  const auto result =
+      run("--exponent 32 --to ggx --measure width --json record.json --svg chart.svg");
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, StartsWith("blinn_phong_heightfield, exponent 32\n"));
   EXPECT_THAT(read_file(directory_.path() / "chart.svg", 1 << 20), StartsWith("<svg"));
@@ -65,7 +66,7 @@ TEST_F(ConvertCommand, WritesARecordAndAChart) {
   EXPECT_EQ(record["best"].size(), 4u);
   EXPECT_EQ(record["rules"].size(), 5u);
   EXPECT_NEAR(double(record["best"][1]["errors"]["halfWidthRatio"]), 1, 1e-9);
-  const Json range = Json::parse(printed("lobelia convert --to phong_rdf -o -\n"));
+  const Json range = Json::parse(printed("lobelia convert --to phong_rdf --json -\n"));
   EXPECT_EQ(range["kind"], "conversion-table");
   EXPECT_EQ(range["from"], "ggx");
   EXPECT_EQ(range["columns"].size(), 9u);
@@ -86,8 +87,8 @@ TEST_F(ConvertCommand, RefusesWhatIsWrongInOneLine) {
       {"--roughness 2 --to phong_rdf", "allowed: 0.01 to 1"},
       {"--exponent 32 --to ggx --f0 0", "allowed: 0.001 to 1"},
       {"--exponent 32 --to ggx --measure widht", "did you mean 'width'?"},
-      {"--exponent 32 --to ggx -o a --svg a", "written by this command already"},
-      {"--exponent 32 --to ggx -o - --svg -", "only one of -o and --svg can go to stdout"},
+      {"--exponent 32 --to ggx --json a --svg a", "written by this command already"},
+      {"--exponent 32 --to ggx --json - --svg -", "only one of --json and --svg can go to stdout"},
   };
   for (const auto& [arguments, message] : kMistakes) {
     const auto result = run(arguments);
@@ -97,7 +98,7 @@ TEST_F(ConvertCommand, RefusesWhatIsWrongInOneLine) {
     EXPECT_EQ(std::count(result.output_tail.begin(), result.output_tail.end(), '\n'), 1)
         << result.output_tail;
   }
-  EXPECT_EQ(run("--exponent 32 --to ggx -o no/such/a.json").exit_code, 4);
+  EXPECT_EQ(run("--exponent 32 --to ggx --json no/such/a.json").exit_code, 4);
   EXPECT_EQ(files_in(directory_.path()), 0u);
 }
 

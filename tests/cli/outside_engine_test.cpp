@@ -302,7 +302,7 @@ TEST_F(OutsideEngines, OfTheTutorialBecomesAColumnByTheCommandsOfItsPage) {
   EXPECT_GE(std::ranges::count(commands, '\n'), 6);
   const ProcessResult result = run_commands(
       commands, directory_.path(),
-      "lobelia() { \"$LOBELIA\" \"$@\" < /dev/null; code=$?; [ $code = 5 ] || return $code; }\n");
+      "lobelia() { code=0; \"$LOBELIA\" \"$@\" < /dev/null || code=$?; [ $code = 5 ] || return $code; }\n");
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   std::size_t cells = 0;
   for (const auto& entry : fs::directory_iterator(path("out/own/cells"))) {

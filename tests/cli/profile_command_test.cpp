@@ -158,7 +158,7 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
       {{"two_lights.exr", "--scene", two_lights_, "--at", "9,9"}, 2, "--scene excludes --at"},
       {{"two_lights.exr", "--b-error", "two_lights.exr"}, 2, "--b-error requires B"},
       {{"two_lights.exr", "--svg", "no/such/a.svg"}, 4, "no/such/a.svg"},
-      {{"two_lights.exr", "--json", "two_lights.exr"}, 2, "is read or written by this command"},
+      {{"two_lights.exr", "--json", "two_lights.exr"}, 2, "is there and is no JSON"},
       {{"two_lights.exr", "oblique_45.exr", "--svg", "./oblique_45.exr"}, 2, "is read or written"},
       {{"two_lights.exr", "--replicate", "oblique_45.exr", "--csv", "oblique_45.exr"},
        2,

@@ -20,7 +20,7 @@ class SearchCommand : public testing::Test {
 };
 
 TEST_F(SearchCommand, FindsTheCheapestWithinAnErrorAndTheNearestForAPrice) {
-  const auto cheapest = run("--error 1e-3 -o search.json");
+  const auto cheapest = run("--error 1e-3 --json search.json");
   ASSERT_EQ(cheapest.exit_code, 0) << cheapest.output_tail;
   const Json record = Json::parse(read_file(directory_.path() / "search.json", 1 << 22));
   EXPECT_EQ(record["kind"], "lobe-search");
@@ -68,7 +68,7 @@ TEST_F(SearchCommand, RefusesAWrongRequestInOneLine) {
     EXPECT_THAT(result.output_tail, HasSubstr(words)) << arguments;
     EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
   }
-  EXPECT_EQ(run("--operations 3 -o none/search.json").exit_code, 4);
+  EXPECT_EQ(run("--operations 3 --json none/search.json").exit_code, 4);
 }
 
 }  // namespace

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "compare/compare.hpp"
 #include "tests/compare/pictures.hpp"
@@ -120,6 +126,23 @@ TEST(Percentile, IsTheLeastThatEnoughValuesDoNotExceed) {
   EXPECT_EQ(percentile(values, 1), 3);
 }
 
+TEST(Percentile, IsTheValueOfThatRankOfAnySortedFloats) {
+  std::mt19937 random(1);
+  for (const std::size_t count : {1u, 2u, 3u, 100u, 70000u})
+    for (const bool any_bits : {false, true}) {
+      std::vector<float> values(count);
+      for (float& value : values) {
+        // A few values many times, or every exponent and both signs.
+        value = any_bits ? std::bit_cast<float>(std::uint32_t(random())) : float(random() % 5) - 2;
+        if (!std::isfinite(value)) value = -0.0f;
+      }
+      std::vector<float> sorted = values;
+      std::ranges::sort(sorted);
+      for (const std::size_t rank : {std::size_t{0}, count / 3, count / 2, count - 1})
+        EXPECT_EQ(nth_value(values, rank), sorted[rank]) << count << ", " << rank;
+    }
+}
+
 TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
   // 200 greys, each farther from white than the one before, in an order that is not sorted.
   const Image reference = fixtures::flat(200, 1, 1, 1, 1);
@@ -142,7 +165,7 @@ TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
 TEST(Ciede2000, OfAPictureIsThatOfItsPixels) {
   const Image a = fixtures::noise(37, 5, 1, 1.5f), b = fixtures::noise(37, 5, 2, 1.2f);
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
-  const std::vector<float> values = ciede2000_of_pixels(shown_a, shown_b).values;
+  const auto values = ciede2000_of_pixels(shown_a, shown_b).values;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double difference = ciede2000(lab_from_display(fixtures::shown_at(shown_a, i)),
                                         lab_from_display(fixtures::shown_at(shown_b, i)));

@@ -4,9 +4,12 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <set>
 
 #include "compare/metrics/catalogue.hpp"
+#include "core/scratch_memory.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia {
@@ -46,6 +49,15 @@ double measure(std::string_view id, const Image& a, const Image& b) {
   return measure(*metric, a, b).at(std::size_t(find_metric_output(id) - metric->outputs.data()));
 }
 
+/// Bits of every output of every metric, of pictures of some size.
+std::vector<std::uint64_t> all_figures(const Image& a, const Image& b) {
+  std::vector<std::uint64_t> bits;
+  for (const Metric* metric : metrics())
+    for (const double value : measure(*metric, a, b))
+      bits.push_back(std::bit_cast<std::uint64_t>(value));
+  return bits;
+}
+
 /// How far a value is from that of equal pictures; larger is worse for every output that is judged.
 double badness(const MetricOutput& output, double value) {
   return output.better == Better::kHigher     ? -value
@@ -54,6 +66,20 @@ double badness(const MetricOutput& output, double value) {
 }
 
 bool is_judged(const MetricOutput& output) { return output.better != Better::kNeither; }
+
+TEST(EveryMetric, IsTheSameBitForBitWhereThePicturesAreInFiles) {
+  constexpr int kWidth = 811, kHeight = 613;
+  const auto figures = [] {
+    const Image a = fixtures::noise(kWidth, kHeight, 1, 1.5f),
+                b = fixtures::highlight(kWidth, kHeight, 20, 1.2);
+    return all_figures(a, b);
+  };
+  const std::vector<std::uint64_t> in_memory = figures();
+  keep_large_pieces_in_files(std::size_t{4} << 20);
+  EXPECT_EQ(figures(), in_memory);
+  keep_large_pieces_in_files(0);
+  EXPECT_GT(in_memory.size(), 50u);
+}
 
 TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
   std::set<std::string_view> ids;

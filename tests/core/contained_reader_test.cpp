@@ -97,6 +97,56 @@ TEST_F(ContainedReader, ReadsEveryFormatAsThisProcessWould) {
   }
 }
 
+TEST_F(ContainedReader, ReadsALargeExrInBandsAsThisProcessWouldAtOnce) {
+  // Three bands, the last of which is short.
+  constexpr int kWidth = 2100, kHeight = 2060;
+  constexpr std::size_t kPixels = std::size_t(kWidth) * kHeight;
+  const auto ramp = [](double start) {
+    std::vector<float> values(kPixels);
+    for (std::size_t i = 0; i < kPixels; ++i)
+      values[i] = float(std::fmod(start + 0.37 * double(i), 60000));
+    return values;
+  };
+  const auto path = directory_.path() / "large.exr";
+  const auto at = [&](int x, int y) { return window(x, y, kWidth, kHeight); };
+  const std::vector<ExrChannel> colours{{"R", ramp(1), Imf::HALF},
+                                        {"G", ramp(2)},
+                                        {"B", ramp(3)},
+                                        {"Z", ramp(4)},
+                                        {"id", ramp(5), Imf::UINT}};
+  for (const ExrPart& part :
+       {ExrPart{.data = at(0, 0), .display = at(0, 0), .channels = colours},
+        ExrPart{.data = at(-7, 11), .display = at(-7, 11), .channels = colours},
+        ExrPart{.data = at(0, 0), .display = at(5, 3), .channels = colours}}) {
+    write_exr_parts(path, {part});
+    const Image contained = read_image(path), direct = read_trusted_image(path);
+    EXPECT_EQ(contained.width(), kWidth);
+    EXPECT_TRUE(std::ranges::equal(contained.values(), direct.values()));
+    const Image depth = read_picture(path, "Z").image, ids = read_picture(path, "id").image;
+    const PixelWindow data = read_picture(path, "Z").source.data;
+    EXPECT_EQ(data.x, part.data.min.x);
+    if (part.data != part.display) continue;
+    for (std::size_t i = 0; i < kPixels; i += 4999) {
+      ASSERT_EQ(depth.values()[3 * i], colours[3].values[i]);
+      ASSERT_EQ(ids.values()[3 * i], std::floor(colours[4].values[i]));
+    }
+  }
+}
+
+TEST_F(ContainedReader, RefusesALargeExrThatIsCutOffAnywhere) {
+  const auto path = directory_.path() / "large.exr";
+  Image image(2100, 2060);
+  for (std::size_t i = 0; i < image.values().size(); ++i) image.values()[i] = float(i % 1000003);
+  write_exr(path, image, {});
+  const std::string whole = read_file(path, 1 << 28);
+  for (const double share : {0.2, 0.6, 0.9, 0.999}) {
+    const auto cut = file("cut.exr", whole.substr(0, std::size_t(share * double(whole.size()))));
+    EXPECT_THAT(refusal(cut), HasSubstr("cut.exr: not a readable picture: ")) << share;
+    EXPECT_THAT(refusal(cut), testing::Not(HasSubstr("the decoder"))) << share;
+  }
+  EXPECT_TRUE(std::ranges::equal(read_image(path).values(), image.values()));
+}
+
 TEST_F(ContainedReader, TellsTheFormatByTheFirstBytesWhateverTheNameSays) {
   for (const Sample& sample : format_samples()) {
     if (sample.name == "plain.tga") continue;  // a TGA without a footer has its name only

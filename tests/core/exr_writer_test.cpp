@@ -33,26 +33,23 @@ bool same_bits(const Image& a, const Image& b) {
          });
 }
 
-std::string write(const fs::path& path, const Image& image, int batch, ExrOptions options = {}) {
-  ExrWriter writer(path, image.width(), image.height(), {{"Software", "test"}}, options);
+std::string write(const fs::path& path, const Image& image, int batch) {
+  ExrWriter writer(path, image.width(), image.height(), {{"Software", "test"}});
   for (int y = 0; y < image.height(); y += batch)
     writer.write_rows(y, std::min(batch, image.height() - y), image.pixel(0, y).data());
   writer.finish();
   return read_file(path, 1 << 26);
 }
 
-TEST(ExrWriter, AnotherReaderFindsEveryBitWhateverSizeAndCompression) {
+TEST(ExrWriter, AnotherReaderFindsEveryBitWhateverTheSize) {
   const TemporaryDirectory directory;
   for (const int width : {1, 2, 3, 37, 300})
-    for (const int height : {1, 2, 15, 16, 17, 50})
-      for (const auto compression : {ExrCompression::kNone, ExrCompression::kZips,
-                                     ExrCompression::kZip, ExrCompression::kPiz})
-        for (const int level : {1, 6}) {
-          const Image image = picture(width, height);
-          write(directory.path() / "a.exr", image, 7, {compression, level});
-          EXPECT_TRUE(same_bits(read_image(directory.path() / "a.exr"), image))
-              << width << " x " << height << ", " << int(compression);
-        }
+    for (const int height : {1, 2, 15, 16, 17, 50, 1100}) {
+      const Image image = picture(width, height);
+      write(directory.path() / "a.exr", image, 7);
+      EXPECT_TRUE(same_bits(read_image(directory.path() / "a.exr"), image))
+          << width << " x " << height;
+    }
 }
 
 TEST(ExrWriter, TheBytesAreTheSameHoweverManyRowsComeAtATimeAndThreadsWork) {

@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/png_writer.hpp"
 
 namespace lobelia {
 namespace {
@@ -88,6 +90,34 @@ TEST(Png, IsDecodedFromSrgbToLinearLight) {
   EXPECT_EQ(back.pixel(0, 0)[0], 0.0f);
   EXPECT_NEAR(back.pixel(0, 0)[2], 1.0f, 1e-6);
   EXPECT_NEAR(back.pixel(1, 0)[0], 1 / 255.0 / 12.92, 1e-7);
+}
+
+TEST(Png, IsTheSameFileHoweverManyRowsComeAtATime) {
+  const TemporaryDirectory directory;
+  const auto whole = directory.path() / "whole.png", rows = directory.path() / "rows.png";
+  std::mt19937 random(1);
+  for (const int width : {1, 37, 300})
+    for (const int height : {1, 2, 50, 211}) {
+      const std::size_t row = std::size_t(3 * width);
+      DisplayImage image{width, height, std::vector<std::uint8_t>(row * std::size_t(height))};
+      for (std::uint8_t& value : image.rgb) value = std::uint8_t(random());
+      const ImageMetadata metadata{{"Software", "test"}};
+      write_png(whole, image, metadata);
+      for (const int batch : {1, 7, 64}) {
+        PngWriter writer(rows, width, height, metadata);
+        for (int y = 0; y < height; y += batch) {
+          const int count = std::min(batch, height - y);
+          const auto first = image.rgb.begin() + std::ptrdiff_t(row) * y;
+          writer.write_rows({width, count, {first, first + std::ptrdiff_t(row) * count}});
+        }
+        EXPECT_FALSE(std::filesystem::exists(rows)) << "before it is finished";
+        writer.finish();
+        EXPECT_EQ(read_file(rows, 1 << 20), read_file(whole, 1 << 20)) << width << " x " << height;
+        std::filesystem::remove(rows);
+      }
+    }
+  PngWriter(rows, 3, 3).write_rows({3, 1, std::vector<std::uint8_t>(9)});
+  EXPECT_FALSE(std::filesystem::exists(rows)) << "an unfinished file";
 }
 
 TEST(Reading, WhatIsNoPictureSaysSoInOneLineWithTheFile) {

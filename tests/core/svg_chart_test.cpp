@@ -94,17 +94,45 @@ TEST(SvgChart, an_axis_is_marked_where_it_says) {
 }
 
 TEST(SvgChart, names_points_where_no_other_name_is_in_the_way) {
-  Chart chart = chart_of({1, 1, 2});
-  chart.series[0].markers = true;
-  chart.series[0].x = {500, 501, 900};
+  Chart chart = chart_of({});
+  ChartSeries& points = chart.series[0];
+  points.markers = true;
   chart.x = {"n", 0, 1000};
-  chart.series[0].point_names = {"first", "hidden by it", "third"};
+  for (int i = 0; i < 9; ++i) {
+    points.x.push_back(500);
+    points.y.push_back(1);
+    points.point_names.push_back("name " + std::to_string(i));
+  }
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(draw_chart(chart).c_str()));
-  const auto names = document.select_nodes("//text[@class='point-name']");
-  ASSERT_EQ(names.size(), 2u);
-  EXPECT_TRUE(document.select_node("//text[.='first']"));
-  EXPECT_TRUE(document.select_node("//text[.='third']"));
+  std::set<std::pair<double, double>> places;
+  for (const auto& name : document.select_nodes("//text[@class='point-name']"))
+    places.emplace(name.node().attribute("x").as_double(), name.node().attribute("y").as_double());
+  EXPECT_EQ(places.size(), document.select_nodes("//text[@class='point-name']").size());
+  EXPECT_EQ(places.size(), 9u) << "each has a place";
+  EXPECT_GE(document.select_nodes("//line[@class='leader']").size(), 3u)
+      << "and those far off a line";
+  EXPECT_EQ(document.select_nodes("//circle[contains(@class, 'ring')]").size(), 8u)
+      << "points that lie on another are told apart";
+}
+
+TEST(SvgChart, writes_long_labels_and_legends_in_lines_and_0_as_0) {
+  Chart chart = chart_of({1, 2, 3});
+  chart.width = 300;
+  chart.y = {
+      "a label that is much longer than the axis beside which it is written, and no words of it are lost",
+      1e-6, 1, true};
+  chart.y.starts_at_zero = true;
+  chart.series.push_back({"another series with a long name", {}, {}, 2});
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(draw_chart(chart).c_str()));
+  EXPECT_GE(document.select_nodes("//text[@class='axis-label']").size(), 3u);
+  EXPECT_TRUE(document.select_node("//text[@class='tick-label'][.='0']"));
+  EXPECT_FALSE(document.select_node("//text[@class='tick-label'][.='10⁻⁶']"));
+  std::set<double> lines;
+  for (const auto& entry : document.select_nodes("//text[@class='legend']"))
+    lines.insert(entry.node().attribute("y").as_double());
+  EXPECT_EQ(lines.size(), 2u);
 }
 
 TEST(SvgChart, alone_has_a_namespace_a_title_a_ground_and_a_size) {

@@ -237,6 +237,20 @@ TEST(GridReader, RefusesCellsWhoseNamesAreTheSameOrTooLong) {
   EXPECT_EQ(cells[1].id, "_hidden");
 }
 
+TEST(GridReader, TellsNamesInOtherAlphabetsApart) {
+  const TemporaryDirectory directory;
+  const std::string scene = read_file(kSceneFiles + "head_on.xml", 1 << 20);
+  std::string names;
+  for (const char* name : {"日本語.xml", "中国語.xml", "___.xml"}) {
+    write_file(directory.path() / name, scene);
+    names += (directory.path() / name).string() + " ";
+  }
+  const auto cells = cells_of(grid_of(axis("scene", names)));
+  ASSERT_EQ(cells.size(), 3u);
+  EXPECT_NE(cells[0].id, cells[1].id);
+  EXPECT_EQ(cells[2].id, "___");
+}
+
 TEST(GridReader, BoundsWhatAHostileFileAsksFor) {
   EXPECT_THAT(error_of(kScene + axis("exponent", numbers(10001))),
               testing::HasSubstr("over 10000 values on the axis 'exponent'; allowed: 10000"));

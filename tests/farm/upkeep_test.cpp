@@ -153,7 +153,7 @@ TEST_F(UpkeepTest, StatusTellsWhatHasBecomeOfEachCell) {
 
 TEST(ParseSize, ReadsPowersOf1024AndRefusesTheRest) {
   EXPECT_EQ(parse_size("0"), 0u);
-  EXPECT_EQ(parse_size("17"), 17u);
+  EXPECT_THROW(parse_size("17"), Error);
   EXPECT_EQ(parse_size("17B"), 17u);
   EXPECT_EQ(parse_size("2K"), 2048u);
   EXPECT_EQ(parse_size("1.5 GB"), 1610612736u);

@@ -16,6 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 records::CostVariant variant(const std::string& name, double median, double error) {
   records::CostVariant variant;
@@ -69,11 +70,11 @@ TEST_F(CostPage, IsThereWithAChartOfEveryVariantThatHasAnError) {
   EXPECT_THAT(site.bad_links(), IsEmpty());
   EXPECT_THAT(site.active_content(), IsEmpty());
   const auto& page = site.page("cost.html");
-  EXPECT_EQ(page.select_nodes("//svg").size(), 1u);
-  EXPECT_EQ(page.select_nodes("//g[@class='point']").size(), 3u)
+  EXPECT_EQ(page.select_nodes("//svg").size(), 2u) << "for a screen and for a phone";
+  EXPECT_EQ(page.select_nodes("//div[@class='wide']//g[@class='point']").size(), 3u)
       << "one has no error that is known";
   EXPECT_EQ(page.select_nodes("//tbody/tr").size(), 4u);
-  EXPECT_EQ(site.page("index.html").select_nodes("//a[@href='cost.html']").size(), 1u);
+  EXPECT_EQ(site.page("index.html").select_nodes("//nav//a[@href='cost.html']").size(), 1u);
 }
 
 TEST_F(CostPage, SaysWhatTheFrontSaysAndHowItWasMeasured) {
@@ -95,6 +96,69 @@ TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
   const std::string text = read_file(put(record), 1 << 20);
   EXPECT_THAT(text, HasSubstr("bit operations per evaluation"));
   EXPECT_THAT(text, HasSubstr("<td class=\"number\">1408</td>"));
+}
+
+TEST_F(CostPage, FindsTheStepThatBuysTheLeastAccuracyForItsTime) {
+  records::Cost record = cost_record();
+  std::vector<records::CostVariant>& variants = record.tables[0].variants;
+  variants = {variant("cs16", 1e-9, 0.02), variant("dear", 8e-9, 0.01),
+              variant("cheap", 16e-9, 1e-7)};
+  record.tables[0].fronts[0].second.variants = {"cs16", "dear", "cheap"};
+  put(record);
+  EXPECT_THAT(read_file(farm_.directory() / "index.html", 1 << 20),
+              HasSubstr("The most expensive accuracy: “dear” takes 8 times as long as “cs16”, for "
+                        "an error 2 times as small (A lobe, n = 64)."));
+}
+
+TEST_F(CostPage, NumbersEveryPointOfACrowdedChartOfAPhone) {
+  records::Cost record = cost_record();
+  std::vector<records::CostVariant>& variants = record.tables[0].variants;
+  variants.clear();
+  for (int i = 0; i < 72; ++i) {
+    // Two decades of time, six of error, and one at the other end of the axis: as those of a lobe.
+    const double across = std::fmod(i * 0.618, 1), down = std::fmod(i * 0.414, 1);
+    variants.push_back(variant("v" + std::to_string(i), 1e-9 * std::pow(10, 2 * across),
+                               i == 0 ? 1e-16 : std::pow(10, -6 * down)));
+  }
+  record.tables[0].fronts[0].second.variants = {"v0"};
+  put(record);
+  const Site site(farm_.directory());
+  const auto& page = site.page("cost.html");
+  EXPECT_EQ(page.select_nodes("//div[@class='narrow']//g[@class='point']").size(), 72u);
+  EXPECT_GE(page.select_nodes("//div[@class='narrow']//*[@class='point-name']").size(), 70u);
+}
+
+TEST_F(CostPage, HasNoChartOfOnePointAndSaysWhatOneRunTells) {
+  records::Cost record = cost_record();
+  std::vector<records::CostVariant>& variants = record.tables[0].variants;
+  variants.resize(1);
+  variants[0].seconds->rounds = 1;
+  variants[0].seconds->spread = 0;
+  record.tables[0].fronts = {{"max", {{"cs16"}, {}, {}, "x.svg"}}};
+  const std::string text = read_file(put(record), 1 << 20);
+  EXPECT_EQ(Site(farm_.directory()).page("cost.html").select_nodes("//svg").size(), 0u);
+  EXPECT_THAT(text, HasSubstr("Only “cs16” was measured"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"number\">one run</td>"));
+  EXPECT_THAT(text, Not(HasSubstr("± 0 %")));
+}
+
+TEST_F(CostPage, HasAFindingTitlesAndTheStudysOwnDrawing) {
+  records::Cost record = cost_record();
+  record.tables[0].variants[1].errors = {{"max", 0}};
+  record.command = {"lobelia", "cost", "/srv/someone/scene.xml"};
+  std::filesystem::create_directories(farm_.directory() / "cost");
+  write_file(farm_.directory() / "cost/lobe-n64-max.svg", "<svg><title>x</title></svg>");
+  const std::string text = read_file(put(record), 1 << 20);
+  EXPECT_THAT(text,
+              HasSubstr("The fastest is “cs16”, with 1.00 ns and an error of 0.017. The least "
+                        "error has “cosine”, with 2.00 ns and no error: 2 times the time."));
+  EXPECT_THAT(text, HasSubstr("<th scope=\"col\">largest error of the lobe</th>"));
+  EXPECT_THAT(text, HasSubstr("href=\"cost/lobe-n64-max.svg\""));
+  EXPECT_THAT(text, HasSubstr(">0</text>")) << "the error of 0 has a place on the axis";
+  EXPECT_THAT(text, Not(HasSubstr("/srv/someone")));
+  EXPECT_THAT(Site(farm_.directory()).bad_links(), IsEmpty());
+  write_file(farm_.directory() / "cost/lobe-n64-max.svg", "<svg><script>1</script></svg>");
+  EXPECT_THAT(read_file(put(record), 1 << 20), Not(HasSubstr("href=\"cost/lobe-n64-max.svg\"")));
 }
 
 TEST_F(CostPage, IsNotThereWhereNothingWasMeasured) {

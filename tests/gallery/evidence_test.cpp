@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 #include "gallery/checked_cell.hpp"
 #include "gallery/gallery.hpp"
 #include "records/comparison.hpp"
@@ -76,8 +77,13 @@ class GalleryEvidence : public ::testing::Test {
                                     .value();
     EXPECT_EQ(verdict, "verdict " + state);
     const std::string data = read_file(directory / "grid.data.js", kMostBytes);
-    const std::size_t at = data.find("\"id\":\"" + FakeFarm::kPass + "\"");
-    EXPECT_EQ(data.substr(data.find("\"status\":", at) + 10, state.size()), state);
+    std::smatch of_cells;
+    const std::regex lists(R"re("ids":\[([^\]]*)\].*"status":\[([^\]]*)\])re");
+    EXPECT_TRUE(std::regex_search(data, of_cells, lists));
+    const std::vector<std::string> ids = split(of_cells[1].str(), ","),
+                                   places = split(of_cells[2].str(), ",");
+    const auto at = std::ranges::find(ids, '"' + FakeFarm::kPass + '"') - ids.begin();
+    EXPECT_EQ(info(kWorstFirst[std::stoul(places[at])]).name, state);
     return state;
   }
   /// The cell's state is `wanted`, the page says `words`, and nothing anywhere calls it a pass.

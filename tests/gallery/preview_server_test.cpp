@@ -108,14 +108,15 @@ class PreviewServer : public ::testing::Test {
 
   fs::path path(const std::string& name) const { return directory_.path() / name; }
 
-  void start() {
+  void start(const char* address = "127.0.0.1") {
     int ends[2];
     ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
     pid_ = ::fork();
     if (pid_ == 0) {
       ::dup2(ends[1], 1);
+      ::dup2(::open(path("stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
       ::execl(LOBELIA_PROGRAM, LOBELIA_PROGRAM, "gallery", "serve", path("site").c_str(), "--port",
-              "0", nullptr);
+              "0", "--listen", address, nullptr);
       ::_exit(99);
     }
     ::close(ends[1]);
@@ -359,6 +360,22 @@ TEST_F(PreviewServer, FollowsNoLinkOutOfTheSiteHoweverOftenItIsSwapped) {
   }
   ::kill(swapper, SIGKILL);
   ::waitpid(swapper, nullptr, 0);
+}
+
+TEST_F(PreviewServer, AnswersOthersOnlyIfAskedToAndThenWarns) {
+  const auto asked_for = [&](const std::string& host) {
+    return raw("GET / HTTP/1.1\r\nConnection: close\r\nHost: " + host + "\r\n\r\n").status();
+  };
+  EXPECT_EQ(asked_for("192.0.2.7:8080"), 403);
+  EXPECT_EQ(read_file(path("stderr"), 1 << 10), "");
+  EXPECT_EQ(stop(), 0);
+  start("0.0.0.0");
+  EXPECT_EQ(asked_for("192.0.2.7:8080"), 200);
+  EXPECT_EQ(asked_for(host_name() + ":80"), 200);
+  EXPECT_EQ(asked_for("localhost"), 200);
+  for (const char* name : {"rebound.example", "1.2.3.4.example", "1.2.3", "1.2.3.4:", ""})
+    EXPECT_EQ(asked_for(name), 403) << name;
+  EXPECT_THAT(read_file(path("stderr"), 1 << 10), HasSubstr("without a password"));
 }
 
 TEST_F(PreviewServer, SaysThatItsPortIsTaken) {

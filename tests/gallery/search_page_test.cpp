@@ -64,7 +64,7 @@ TEST_F(SearchPage, HasAChartForTheRangeAndForEachExponentAndShowsTheFirstWithout
   const auto& page = site.page("search.html");
   EXPECT_EQ(page.select_nodes("//figure").size(), 3u);
   EXPECT_EQ(page.select_nodes("//figure[not(@hidden)]").size(), 1u);
-  EXPECT_EQ(page.select_nodes("//figure[1]//g[@class='point']").size(), 5u);
+  EXPECT_EQ(page.select_nodes("//figure[1]/div[@class='wide']//g[@class='point']").size(), 5u);
   EXPECT_EQ(page.select_nodes("//tbody/tr").size(), 5u);
   EXPECT_EQ(page.select_nodes("//a[@href='search/pk3.2.glsl']").size(), 1u);
   EXPECT_EQ(page.select_nodes("//a[contains(@href, '.glsl')]").size(), 1u);

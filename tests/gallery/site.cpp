@@ -32,7 +32,8 @@ bool leads_somewhere(const fs::path& site, const fs::path& page, const pugi::xml
                      std::string link) {
   if (const auto hash = link.find('#'); hash != std::string::npos) {
     const std::string id = link.substr(hash + 1);
-    if (!document.select_node(("//*[@id='" + id + "']").c_str())) return false;
+    const bool is_state = hash > 0 && id.find('=') != id.npos;  // of the script of that page
+    if (!is_state && !document.select_node(("//*[@id='" + id + "']").c_str())) return false;
     link.erase(hash);
     if (link.empty()) return true;
   }

@@ -31,11 +31,28 @@ records::HighlightTables explorer_record() {
   record.per_octave = 1;
   record.most_grazing = 1.5706;
   record.error.curve = 2e-4;
-  record.models = {{"modified_phong", kHostileTitle, "L and R", true, false, "radiance", "1/M0"}};
+  record.models = {{"modified_phong",
+                    kHostileTitle,
+                    "L and R",
+                    true,
+                    false,
+                    "radiance",
+                    "1/M0",
+                    {},
+                    1,
+                    {1, 0, 0, 0}}};
   record.lobes = {
-      {"cosine", "cosine", "(1 - s)^n", 0, 0.1, {1.57, 1.57, 1.57}, {0.5, 0.4, 0.3}, rows}};
-  record.highlights = {
-      {"modified_phong", "cosine", {0.5, 0.6, 0.9}, {0.5, 0.6, 0.8}, 0.01, rows, rows}};
+      {"cosine", "cosine", "(1 - s)^n", {}, 0, 0.1, {1.57, 1.57, 1.57}, {0.5, 0.4, 0.3}, rows}};
+  record.highlights = {{"modified_phong",
+                        "cosine",
+                        {0.5, 0.6, 0.9},
+                        {0.5, 0.6, 0.8},
+                        0.01,
+                        rows,
+                        rows,
+                        {0, 1},
+                        {1}}};
+  record.shader_parts = {kHostileTitle, "</script>"};
   return record;
 }
 
@@ -121,6 +138,25 @@ class RecordViews : public ::testing::TestWithParam<ViewCase> {
   FakeFarm farm_;
 };
 
+TEST(PaperView, FindsTheClaimThatSurprisesMostIfItDoesNotHold) {
+  FakeFarm farm;
+  const auto index = [&](const std::string& verdict) {
+    records::VerifyPaper record = paper_record();
+    record.not_reproduced = 2;
+    record.claims.push_back(claim("energy-cs16", verdict));
+    record.claims.back().statement = "no energy is made";
+    record.claims.back().reason = "some is";
+    std::filesystem::create_directories(farm.directory() / "paper");
+    write_file(farm.directory() / "paper/paper.json", record_text(record));
+    write_gallery(farm.directory());
+    return read_file(farm.directory() / "index.html", 1 << 20);
+  };
+  EXPECT_THAT(index("not reproduced"),
+              ::testing::HasSubstr(
+                  "2 could not be reproduced. It says that no energy is made, but some is."));
+  EXPECT_THAT(index("confirmed"), ::testing::Not(::testing::HasSubstr("It says that")));
+}
+
 TEST_P(RecordViews, AreLinkedFromEveryPageAndWholeWithoutScript) {
   put(GetParam().record());
   const Site site(farm_.directory());
@@ -187,7 +223,7 @@ TEST_P(PaperView, TellsEachClaimWithItsNumberAndItsFigure) {
   const auto& page_of = site.page(page());
   EXPECT_EQ(page_of.select_nodes("//article").size(), 3u);
   const auto second = page_of.select_node("//article[@data-verdict='not reproduced']").node();
-  EXPECT_THAT(text_of(second), HasSubstr("1.70e-2"));
+  EXPECT_THAT(text_of(second), HasSubstr("1.70 × 10⁻²"));
   EXPECT_EQ(second.select_nodes(".//a[@href='#plot-1-figure']").size(), 1u);
   EXPECT_EQ(page_of.select_nodes("//figure//a[@href='#claim-2']").size(), 1u);
 }

@@ -3,9 +3,7 @@
 // another name, so that this test need not know the interfaces.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <regex>
 #include <set>
 
@@ -186,20 +184,6 @@ void add_view(const fs::path& tree) {
   view.copy("gallery/web/src/views/paper.ts", "gallery/web/src/views/NAME.ts",
             {{"function paper(", "function throwaway("}});
   view.expect_as_documented();
-}
-
-struct Ran {
-  int exit_code;
-  std::string output;
-};
-Ran run(const std::string& command) {
-  std::string output;
-  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return {-1, "no pipe"};
-  char part[4096];
-  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(output)};
 }
 
 class Adding : public testing::Test {

@@ -37,10 +37,10 @@ std::vector<std::string> knowledge_of_engines(const fs::path& root) {
   std::vector<std::string> found;
   for (const fs::path& file : project_files(root)) {
     const std::string name = file.generic_string(), room = file.begin()->string();
-    // Tests say which engine they mean; a shading language and a record's word have the same name; the fuzzed
-    // programs have engines of their own.
-    if (!is_cpp(file) || room == "tests" || room == "shaders" || room == "records" ||
-        room == "fuzz" || name.starts_with("reference_scenes/engines/"))
+    // Tests and benchmarks say which engine they mean; a shading language and a record's word have the same name; the
+    // fuzzed programs have engines of their own.
+    if (!is_cpp(file) || room == "tests" || room == "bench" || room == "shaders" ||
+        room == "records" || room == "fuzz" || name.starts_with("reference_scenes/engines/"))
       continue;
     // What all engines share.
     const bool shared = room == "reference_scenes" && file.parent_path() == "reference_scenes";

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -33,6 +35,21 @@ inline std::string quoted(const fs::path& path) {
   std::string word = "'";
   for (const char c : path.string()) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return word + "'";
+}
+
+struct Ran {
+  int exit_code;
+  std::string output;  ///< stdout and stderr
+};
+
+inline Ran run(const std::string& command) {
+  std::string output;
+  FILE* const pipe = ::popen(("exec 2>&1; " + command).c_str(), "r");
+  if (!pipe) return {-1, "no pipe"};
+  char part[4096];
+  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
+  const int status = ::pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(output)};
 }
 
 /// An empty directory that goes with this object.

@@ -58,7 +58,10 @@ TEST(Scripts, have_no_mistake_that_bash_or_shellcheck_finds) {
   const fs::path commands = installed_tree().work() / "docker.sh";
   write(commands, docker);
   for (const fs::path& script :
-       {kRoot / "packaging/ci/compare", kRoot / "scripts/install", commands}) {
+       {kRoot / "packaging/ci/compare", kRoot / "packaging/python/postinst",
+        kRoot / "packaging/python/prerm", kRoot / "scripts/install",
+        kRoot / "tests/packages/first_steps.sh", kRoot / "tests/packages/fresh_root.sh",
+        commands}) {
     const std::string file = house::quoted(script);
     const Ran parsed = run("bash -n " + file);
     EXPECT_EQ(parsed.exit_code, 0) << parsed.output;

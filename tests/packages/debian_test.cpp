@@ -11,6 +11,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
+const fs::path kTests = fs::path(LOBELIA_SOURCE_DIR) / "tests/packages";
+
 class Debian : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -46,21 +48,67 @@ class Debian : public testing::Test {
     }
     return "";
   }
+  static bool has_python() { return fs::exists(kBuild / "python"); }
   static std::string all() { return house::quoted(made->path()) + "/*.deb"; }
+
+  /// The module and the plug-in by Debian's Python. It writes byte code beside them, which the purge has to remove.
+  static void use_python(const fs::path& root, const fs::path& place) {
+    const fs::path site = root / "usr/lib/python3/dist-packages";
+    write(place / "test_installed.py", R"(import lobelia
+
+def test_installed(lobelia_compare):
+    assert lobelia.__file__.startswith(")" +
+                                           site.string() + R"(")
+    scene = lobelia.scenes()["head_on"]
+    image = lobelia.render(scene, width=32, height=32)
+    truth = lobelia.reference(scene, "analytic", width=32, height=32)
+    lobelia.write("picture.png", image)
+    assert lobelia.read("picture.png").shape == (32, 32, 3)
+    assert lobelia.compare(image, truth)
+    lobelia_compare(image, "references/head_on.exr")
+)");
+    const std::string pytest =
+        "cd " + house::quoted(place) + " && env -i HOME=" + house::quoted(place) +
+        " PYTHONPATH=" + house::quoted(site) + " /usr/bin/python3 -m pytest -q test_installed.py";
+    const Ran updated = run(pytest + " --lobelia-update");
+    EXPECT_EQ(updated.exit_code, 0) << updated.output;
+    const Ran ran = run(pytest);
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+    EXPECT_THAT(ran.output, HasSubstr("1 passed"));
+    EXPECT_TRUE(fs::exists(site / "lobelia/__pycache__"));
+  }
+
+  /// By programs and module below `prefix` alone: renders, compares, makes a gallery, runs the tutorial.
+  static void take_first_steps(const fs::path& prefix, const fs::path& place) {
+    if (run("/usr/bin/python3 -c 'import matplotlib, pandas'").exit_code != 0) return;
+    fs::create_directory(place);
+    const Ran ran = run("cd " + house::quoted(place) + " && env -i HOME=" + house::quoted(place) +
+                        " PATH=/usr/bin:/bin sh " + house::quoted(kTests / "first_steps.sh") + " " +
+                        house::quoted(prefix));
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  }
 
   static Scratch* made;
 };
 Scratch* Debian::made = nullptr;
 
 TEST_F(Debian, packages_depend_on_what_they_need) {
-  EXPECT_THAT(field(library(), "Depends"), HasSubstr("libopenimageio"));
+  for (const char* needed :
+       {"libopenimageio", "libopencolorio", "libembree", "libglpk", "libmicrohttpd", "libzip"})
+    EXPECT_THAT(field(library(), "Depends"), HasSubstr(needed)) << "for its modules";
   EXPECT_THAT(field("lobelia", "Depends"), HasSubstr(library() + " (= "));
-  EXPECT_THAT(field("lobelia", "Depends"), HasSubstr("libembree"));
+  EXPECT_THAT(field("lobelia", "Depends"), HasSubstr("libisal"));
   EXPECT_THAT(field("lobelia", "Depends"), Not(HasSubstr("povray")));
   for (const char* engine : {"povray", "blender"})
     EXPECT_THAT(field("lobelia", "Recommends"), HasSubstr(engine));
   EXPECT_THAT(field("liblobelia-dev", "Depends"), HasSubstr(library() + " (= "));
   EXPECT_THAT(field("lobelia-doc", "Architecture"), HasSubstr("all"));
+  if (!has_python()) return;
+  for (const char* needed : {"python3 (>= 3.", "python3 (<< 3.", "python3-numpy", "libisal"})
+    EXPECT_THAT(field("python3-lobelia", "Depends"), HasSubstr(needed));
+  for (const char* optional : {"lobelia (= ", "python3-matplotlib", "python3-pytest"})
+    EXPECT_THAT(field("python3-lobelia", "Recommends"), HasSubstr(optional));
+  EXPECT_THAT(field("python3-lobelia", "Suggests"), HasSubstr("python3-pandas"));
 }
 
 TEST_F(Debian, lintian_finds_no_error) {
@@ -105,13 +153,27 @@ TEST_F(Debian, packages_are_installed_run_and_purged) {
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_THAT(ran.output, HasSubstr("verdict: pass"));
 
-  const Ran purged = run(dpkg + "--purge lobelia lobelia-doc liblobelia-dev " + library());
+  if (has_python()) {
+    use_python(root, scratch.path());
+    take_first_steps(root / "usr", scratch / "first");
+  }
+  const Ran purged = run(dpkg + "--purge lobelia lobelia-doc liblobelia-dev " + library() +
+                         (has_python() ? " python3-lobelia" : ""));
   EXPECT_EQ(purged.exit_code, 0) << purged.output;
   std::vector<std::string> left;
   for (const auto& entry : fs::recursive_directory_iterator(root / "usr"))
     if (!entry.is_directory()) left.push_back(entry.path().lexically_relative(root).string());
   std::sort(left.begin(), left.end());
   EXPECT_THAT(left, testing::ElementsAre("usr/bin/other", "usr/share/lobelia/scenes/mine.xml"));
+}
+
+/// In a root of its own, of which nothing is the machine's. It takes minutes and a network.
+TEST_F(Debian, packages_are_all_that_a_fresh_debian_needs) {
+  if (!std::getenv("LOBELIA_FRESH_ROOT")) GTEST_SKIP() << "LOBELIA_FRESH_ROOT is not set";
+  Scratch scratch;
+  const Ran ran = run("sh " + house::quoted(kTests / "fresh_root.sh") + " " +
+                      house::quoted(made->path()) + " " + house::quoted(scratch.path()));
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
 }
 
 }  // namespace

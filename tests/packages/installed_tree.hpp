@@ -1,9 +1,6 @@
 // The built tree, installed in a directory with a blank and then moved, as a user may do.
 #pragma once
 
-#include <sys/wait.h>
-
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -16,24 +13,11 @@ namespace fs = std::filesystem;
 /// Of the tree that is tested.
 const fs::path kBuild = fs::path(LOBELIA_PROGRAM).parent_path().parent_path();
 
+using house::Ran;
 using house::read;
+using house::run;
 using house::Scratch;
 using house::write;
-
-struct Ran {
-  int exit_code;
-  std::string output;  ///< stdout and stderr
-};
-
-inline Ran run(const std::string& command) {
-  std::string output;
-  FILE* const pipe = ::popen(("exec 2>&1; " + command).c_str(), "r");
-  if (!pipe) return {-1, "no pipe"};
-  char part[4096];
-  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(output)};
-}
 
 inline bool has_program(const std::string& name) {
   return run("command -v " + name).exit_code == 0;

@@ -24,10 +24,12 @@ std::set<std::string> matches(const std::string& text, const std::regex& word) {
 }
 std::set<std::string> subcommands(const std::string& command) {
   const std::string help = help_of(command);
-  const std::size_t at = help.find("\nSubcommands:\n");
+  // The commands of lobelia itself stand in groups, by task.
+  const std::size_t at = help.find(command.empty() ? "\nOptions:\n" : "\nSubcommands:\n");
   if (at == help.npos) return {};
+  const std::size_t end = help.find(command.empty() ? "\nBegin with:\n" : "\n\n", at + 1);
   static const std::regex word("\n  ([a-z][a-z-]+) ");
-  return matches(help.substr(at, help.find("\n\n", at + 1) - at), word);
+  return matches(help.substr(at, end - at), word);
 }
 std::set<std::string> options(const std::string& command) {
   static const std::regex word("\n  (?:-[a-zA-Z],)?(--[a-z][a-z0-9-]*)");

@@ -1,5 +1,6 @@
 """Lobes and models against formulas that are written here by hand."""
 
+import decimal
 import math
 
 import numpy as np
@@ -45,6 +46,33 @@ def test_float32_has_the_values_of_float64(name):
         # s is rounded, which moves a lobe by up to n of its peak per unit; and so are the 64 factors of cs64.
         error = np.abs(lobe.value(s.astype(np.float32), np.float32(n)) - lobe.value(s, n))
         assert np.max(error) < 2 ** -23 * (64 + n)
+
+
+@pytest.mark.parametrize(
+    "name, formula, bound",
+    [
+        ("cosine", lambda s, n: (1 - s) ** n, 1e-15),  # measured: 4.9e-16
+        ("schlick", lambda s, n: (1 - s) / (n - n * (1 - s) + 1 - s), 1e-15),  # 2.2e-16
+        ("spherical_gaussian", lambda s, n: (-n * s).exp(), 1e-15),  # 2.9e-16
+        ("cs16", lambda s, n: max(0, 1 - n * s / 16) ** 16, 4e-15),  # 2.2e-15: the power of a rounded number
+    ],
+)
+def test_float64_is_evaluated_in_float64(name, formula, bound):
+    """Against 50 digits, where the lobe is over a thousandth of its peak."""
+    random = np.random.default_rng(1)
+    n = 10 ** random.uniform(0, 6, 2000)
+    s = np.minimum(10 ** random.uniform(-3, 0.5, 2000) / n, 0.999)
+    with decimal.localcontext(decimal.Context(prec=50)):
+        exact = [formula(decimal.Decimal(a), decimal.Decimal(b)) for a, b in zip(s.tolist(), n.tolist())]
+        pairs = [(decimal.Decimal(v), e) for v, e in zip(lobelia.lobe(name).value(s, n).tolist(), exact) if e > 1e-3]
+        assert len(pairs) > 1500
+        assert max(abs(v - e) / e for v, e in pairs) < bound
+        # A whole model: coefficient and lobe.
+        pi = decimal.Decimal("3.14159265358979323846264338327950288")
+        found = lobelia.radiance("phong_rdf", "cosine", 64.0, 0.7, s[s < 0.05])
+        for a, v in zip(s[s < 0.05].tolist(), found.tolist()):
+            e = 65 / (2 * pi) * (1 - decimal.Decimal(a)) ** 64
+            assert abs(decimal.Decimal(v) - e) / e < decimal.Decimal(1e-15)
 
 
 def test_float32_gives_float32_and_all_else_float64():

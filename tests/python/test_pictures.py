@@ -189,7 +189,6 @@ def test_html_is_escaped(image, tmp_path):
         (np.zeros((4, 4, 3), object), "no array of numbers"),
         (np.broadcast_to(np.float32(0), (40000, 1, 3)), "1 x 40000 pixels"),
         (np.broadcast_to(np.float32(0), (30000, 30000, 3)), "30000 x 30000 pixels"),
-        (None, "no array of numbers"),
         ([[["x"]]], "no array of numbers"),
     ],
 )
@@ -200,6 +199,14 @@ def test_what_is_no_picture_is_refused(bad, sentence, image):
         lobelia.profile(bad)
     with pytest.raises(lobelia.InputError):
         lobelia.write("unwritten.exr", bad)
+
+
+def test_a_picture_that_is_none_is_said_to_be_required(image):
+    for pair in ((None, image), (image, None)):
+        with pytest.raises(lobelia.UsageError, match="a and b are required"):
+            lobelia.compare(*pair)
+    with pytest.raises(lobelia.InputError, match="no array of numbers"):
+        lobelia.profile(None)
 
 
 def test_other_layouts_are_converted(image):

@@ -53,7 +53,7 @@ TEST_F(ReferenceCommand, UnknownEngineIsExitCode2) {
 }
 
 TEST_F(ReferenceCommand, WhatTheEngineCannotShowIsExitCode3) {
-  const auto result = run({"--engine", "blender", "--precision", "float", "--witness", "native",
+  const auto result = run({"--engine", "blender", "--precision", "float", "--shading", "native",
                            "-o", "picture.exr", "--model", "modified_phong"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.output_tail, HasSubstr("not comparable, because"));

@@ -147,7 +147,7 @@ TEST_F(EnginesCommand, PrintsARecordToo) {
   auto found = played();
   found["blender"] = program("bl", "Blender 5.0.0");
   std::vector<std::string> arguments = programs(found);
-  arguments.insert(arguments.begin(), "--json");
+  arguments.insert(arguments.begin(), {"--json", "-"});
   const auto result = run(arguments);
   EXPECT_EQ(result.exit_code, 5);
   const std::string& text = result.output_tail;  // with the error behind it

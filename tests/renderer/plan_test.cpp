@@ -1,5 +1,6 @@
 #include "renderer/plan/plan.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,6 +63,29 @@ TEST(Plan, AHalfVectorNeedsMoreDigitsWhereLightAndEyeFaceEachOther) {
   }
   EXPECT_GT(front, side);
   EXPECT_GT(side, 2);
+}
+
+TEST(ErrorBoundOfShading, IsFiniteAndGrowsAsHalfVectorsShrinkAndIsAllOfThePeakWhereTheyVanish) {
+  std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
+  for (const char* name : {"cs12", "cs1024"}) lobes.push_back(*find_lobe(name));
+  for (const ModelId model : all_models())
+    for (const LobeId& lobe : lobes)
+      for (const double n : {1.0, 19.744142321879362, 1e4, 1e9})
+        for (const Precision precision :
+             {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
+          const Highlight highlight{model, lobe, Normalisation::kExact, n};
+          SCOPED_TRACE(
+              fmt::format("{} {} {} {}", info(model).name, info(lobe).name, n, name(precision)));
+          double narrower = 0;
+          for (const double length : {2.0, 1.0, 1e-2, 1e-5, 1e-10, 1e-15, 0.0}) {
+            const double bound = shading_error_bound(precision, highlight, length);
+            EXPECT_GE(bound, narrower * (1 - 1e-9)) << length;
+            EXPECT_LT(bound, 10) << length;
+            narrower = bound;
+          }
+          const bool vanishes = info(model).angle == LobeAngle::kHalfVector;
+          EXPECT_GE(narrower, vanishes ? 0.9 : 0);
+        }
 }
 
 TEST(Plan, TakesThePrecisionThatIsAskedForAndSaysSo) {

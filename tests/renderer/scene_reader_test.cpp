@@ -195,7 +195,19 @@ TEST(SceneReader, BoundsTheNumberOfEverything) {
   for (int i = 0; i <= kMaxLights; ++i)
     emitters +=
         "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,1\"/></emitter>";
-  EXPECT_THAT(error_of(scene(emitters)), testing::HasSubstr("over 64 emitters"));
+  EXPECT_THAT(error_of(scene(emitters)), testing::HasSubstr("over 65536 emitters"));
+  const std::string sky = "<emitter type=\"constant\"/>";
+  std::string skies;
+  for (int i = 0; i <= kMaxEnvironments; ++i) skies += sky;
+  EXPECT_THAT(error_of(scene(skies)), testing::HasSubstr("over 64 constant and envmap emitters"));
+  const std::string ball = "<bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/></bsdf>";
+  EXPECT_THAT(
+      error_of(scene(
+          emitters.substr(0, emitters.size() / (kMaxLights + 1) * kMaxLights) +
+          "<shape type=\"sphere_lattice\"><integer name=\"columns\" value=\"1024\"/><integer name=\"rows\" value=\"5\"/>"
+          "<vector name=\"step\" value=\"3,3,3\"/>" +
+          ball + "</shape>")),
+      testing::HasSubstr("65536 emitters times 5120"));
   EXPECT_THAT(error_of(std::string(kMaxSceneBytes + 1, ' ')), testing::HasSubstr("bytes; at most"));
 }
 

@@ -151,7 +151,7 @@ TEST(AgreementCommand, RefusesWhatItCannotDoBeforeItWorks) {
   expect({"--engine", "analytic"}, ExitCode::kUsage, "allowed: povray, blender");
   expect({"--engine", "povray", "--povray", "no/such"}, ExitCode::kEngine, "no/such");
   expect({"--size", "4"}, ExitCode::kUsage, "--size");
-  expect({"--json", "--markdown"}, ExitCode::kUsage, "excludes");
+  expect({"--json", "-", "--markdown"}, ExitCode::kUsage, "excludes");
   expect({"-o", "file"}, ExitCode::kOutput, "file");
   EXPECT_EQ(files_in(directory.path()), 1u);
 }

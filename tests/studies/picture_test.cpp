@@ -36,10 +36,12 @@ TEST(PictureLevel, HasAVariantForEachLobeAndPrecisionHeldAgainstTheFormulas) {
     EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
     EXPECT_EQ(variant.errors.size(), table.errors.size());
     ASSERT_TRUE(variant.facts && variant.facts->rays) << variant.name;
-    // Half floats have no fused kernel, which traces no ray far from the sphere.
-    EXPECT_EQ(variant.facts->rays->camera, variant.name.ends_with("(emulated)")
-                                               ? 128 * 128
-                                               : table.variants[0].facts->rays->camera);
+    // Half floats have no fused kernel, which traces no ray far from the highlight.
+    if (variant.name.ends_with("(emulated)")) {
+      EXPECT_EQ(variant.facts->rays->camera, 128 * 128);
+    } else {
+      EXPECT_LT(variant.facts->rays->camera, 128 * 128 * 0.6);
+    }
     EXPECT_GT(variant.facts->rays->camera, 0);
     EXPECT_GT(cost_of(variant).median, 0);
   }

@@ -121,7 +121,7 @@ TEST(WritingCosts, LeavesTheRecordTheTableAndAChartForEachError) {
 
 TEST(SecondsText, HasThreeDigitsAndAUnit) {
   EXPECT_EQ(short_time_text(3.14159e-9), "3.14 ns");
-  EXPECT_EQ(short_time_text(2.5e-5), "25.0 us");
+  EXPECT_EQ(short_time_text(2.5e-5), "25.0 µs");
   EXPECT_EQ(short_time_text(0.3), "300 ms");
   EXPECT_EQ(short_time_text(1.5), "1.50 s");
 }

@@ -1,11 +1,11 @@
 // `lobelia search`: its optima by a second solver, its proofs by 50 digits on grids, its certificates by themselves.
 #include <gmock/gmock.h>
-#include <hwy/aligned_allocator.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <random>
 
+#include "core/aligned.hpp"
 #include "core/error.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/minimax.hpp"
@@ -216,7 +216,7 @@ TEST(Search, FindsNoLobesNearerThanTheCatalogues) {
 TEST(Search, TimesWhatItFound) {
   // What is timed is the lobe: the value in float32 is that in double.
   constexpr std::size_t kCount = 4096;
-  const auto s = hwy::AllocateAligned<float>(kCount), value = hwy::AllocateAligned<float>(kCount);
+  const auto s = aligned_floats(kCount), value = aligned_floats(kCount);
   for (std::size_t i = 0; i < kCount; ++i) s[i] = float(i) / kCount;
   for (const Shape& shape : {Shape{Outer::kClamp, 3, 2, 1}, Shape{Outer::kReciprocal, 2, 1, 1},
                              Shape{Outer::kBits, 2, 0, 0}}) {

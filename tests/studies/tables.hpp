@@ -7,7 +7,7 @@ namespace lobelia::cost {
 
 inline Variant variant(const char* name, double seconds, double error, double spread = 0) {
   Variant result{name, {{"lobe", name}}, {{"max", error}}, {}, {}, {}, {}, {}};
-  result.seconds = records::CostSeconds{seconds, spread, seconds, seconds, 5};
+  result.seconds = records::MeasuredRounds{seconds, spread, seconds, seconds, 5};
   return result;
 }
 

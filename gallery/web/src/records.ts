@@ -29,30 +29,6 @@ export interface GridStatus {
   mark: string;
 }
 
-/** A cell's thumbnail. */
-export interface GridPicture {
-  src: string;
-  width: number;
-  height: number;
-}
-
-/** A cell of the grid. */
-export interface GridCell {
-  id: string;
-  label: string;
-  href: string;
-  status: string;
-  /** its value on each axis; -1 where the axis does not know it */
-  at: number[];
-  /** by engine, a value of each metric */
-  metrics: Record<string, (number | "nan" | "inf" | "-inf" | null)[]>;
-  picture?: GridPicture;
-  /** of a report: the other pictures, each followed by its difference */
-  beside?: GridPicture[];
-  /** of a report: a sentence */
-  finding?: string;
-}
-
 /** A metric that a grid can be coloured by. */
 export interface GridMetric {
   id: string;
@@ -60,6 +36,43 @@ export interface GridMetric {
   meaning: string;
   unit: "radiance" | "share" | "count" | "plain";
   moreIsBetter: boolean;
+}
+
+/** A thumbnail: many cells have one of the same name and size. */
+export interface GridPicture {
+  file: string;
+  width: number;
+  height: number;
+}
+
+/** The label of a cell that has no place on the axes. */
+export interface GridLabel {
+  cell: number;
+  label: string;
+}
+
+/** How a cell may have changed since an earlier run. */
+export interface GridChange {
+  name: string;
+  word: string;
+  mark: string;
+}
+
+/** A metric of one engine. */
+export interface GridColumn {
+  /** its place in the list of engines */
+  engine: number;
+  /** a float32 for each cell, NaN where there is none; little endian, in base64 */
+  values: string;
+  /** likewise; one alone holds for every cell; may be empty */
+  limits: string;
+}
+
+/** A metric of all engines. */
+export interface GridColumns {
+  /** its place in the list of metrics */
+  metric: number;
+  engines: GridColumn[];
 }
 
 /** The page of the grid. */
@@ -70,8 +83,30 @@ export interface GridPage {
   engines: GridEngine[];
   layout: GridLayout;
   statuses: GridStatus[];
-  cells: GridCell[];
   metrics: GridMetric[];
+  pictures: GridPicture[];
+  /** of the cells; the lists below are in their order */
+  ids: string[];
+  /** for each cell its value on each axis; -1 where the axis does not know it */
+  at: number[];
+  /** its place in the list of statuses */
+  status: number[];
+  /** its place in the list of pictures; -1: there is none */
+  picture: number[];
+  /** of a site in few files: its place among the thumbnails */
+  place?: number[];
+  /** where the values on the axes do not tell it */
+  labels?: GridLabel[];
+  /** of a report: the other pictures, each followed by its difference */
+  beside?: number[][];
+  /** of a report: a sentence, or nothing */
+  findings?: string[];
+  /** if there is an earlier run */
+  changes?: GridChange[];
+  /** its place in the list of changes */
+  change?: number[];
+  /** of a small grid; in a large one each is a file */
+  columns?: GridColumns[];
 }
 
 /** A picture; both files are drawn at this size. */
@@ -91,6 +126,8 @@ export interface ShownEngine {
   picture: ShownPicture | null;
   /** of a PackedPicture */
   floatScript: string | null;
+  /** of an earlier run's picture: the engine's name */
+  beforeOf?: string;
 }
 
 /** A difference for each pixel. */
@@ -100,6 +137,8 @@ export interface ShownMap {
   meaning: string;
   /** of a PackedPicture */
   script: string;
+  /** of its scale */
+  top: number;
 }
 
 /** A comparison of two engines' pictures. */
@@ -141,6 +180,8 @@ export interface ShownProfile {
   zones: ShownZone[];
   /** each as long as degrees */
   curves: ShownCurve[];
+  /** curves with differences from the formula as values */
+  fromFormula?: string[];
 }
 
 /** The page of a cell. */
@@ -185,6 +226,60 @@ export interface InlinedPage {
   title: string;
   /** markup of its <main> */
   main: string;
+}
+
+/** The page of all cells. */
+export interface CellIndex {
+  /** the first id of each CellChunk, percent-encoded, in order */
+  first: string[];
+}
+
+/** Neighbouring cells of a site in few files. */
+export interface CellChunk {
+  /** CellTexts; base64, deflated */
+  texts: string;
+  /** the pages as pieces: 0 is the next new piece, 1 the end of a page, n the piece n - 2. The low 16 bits of all, then the high ones; base64, deflated */
+  order: string;
+  /** the numbers of all profiles as gallery/packed_numbers.hpp has them; base64, deflated */
+  curves: string;
+  /** for each cell all its pictures as gallery/packed_pixels.hpp has them; base64, deflated */
+  pixels: string[];
+}
+
+/** An 8-bit picture, as a site in few files has it. */
+export interface PackedShown {
+  file: string;
+  width: number;
+  height: number;
+  /** what its bytes are differences from: 1 a prediction from neighbours, 2 the first picture, 3 both */
+  way: number;
+}
+
+/** A cell of a site in few files. */
+export interface PackedCell {
+  id: string;
+  page: CellPage;
+  pictures: PackedShown[];
+  /** numbers of its profile's degrees and of each curve, which CellChunk has */
+  counts: number[];
+}
+
+/** The texts of a CellChunk. */
+export interface CellTexts {
+  /** tags and texts of the pages, each once */
+  pieces: string[];
+  cells: PackedCell[];
+}
+
+/** Thumbnails of neighbouring cells. */
+export interface Thumbnails {
+  /** in pixels; 0 is no picture */
+  widths: number[];
+  heights: number[];
+  /** as in PackedShown */
+  ways: number[];
+  /** all pictures as gallery/packed_pixels.hpp has them; base64, deflated */
+  pixels: string;
 }
 
 /** The largest errors of a lobe: of the peak, and in ulp. */
@@ -266,6 +361,16 @@ export interface TableErrors {
   coefficient: number;
 }
 
+/** Operations per point. What depends on the exponent alone is computed once. */
+export interface Operations {
+  multiply: number;
+  add: number;
+  divide: number;
+  root: number;
+  transcendental: number;
+  compare: number;
+}
+
 /** A model, for the explorer. */
 export interface ModelTable {
   name: string;
@@ -275,13 +380,18 @@ export interface ModelTable {
   hasShadowing: boolean;
   normalised: string;
   coefficient: string;
+  operations: Operations;
+  sMax: number;
+  /** 1 / coefficient is the integral of lobe(s) (w0 + w1 s + w2 s^2 + w3 s^3), s = 0 to sMax */
+  weights: number[];
 }
 
-/** A lobe over the exponents. docs/decisions/0015 defines the tables. */
+/** A lobe over the exponents. docs/records.md defines the tables. */
 export interface LobeTable {
   name: string;
   title: string;
   formula: string;
+  operations: Operations;
   order: number;
   /** curves are in multiples of it */
   unit: number;
@@ -305,6 +415,10 @@ export interface HighlightTable {
   seen: number[][];
   /** missing if it is the same as seen */
   lit?: number[][];
+  /** positions in shaderParts, which joined are the exported GLSL */
+  shader: number[];
+  /** with the paper's coefficient; missing if it has none */
+  paperShader?: number[];
 }
 
 /** Every highlight over the exponent, as numbers that a page can interpolate. */
@@ -320,4 +434,6 @@ export interface HighlightTables {
   models: ModelTable[];
   lobes: LobeTable[];
   highlights: HighlightTable[];
+  /** paragraphs of 'lobelia export --language glsl --coefficient argument' */
+  shaderParts: string[];
 }

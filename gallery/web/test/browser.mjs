@@ -88,6 +88,8 @@ export async function says(page, selector, pattern) {
 
 /** As the page has it now; page.url() hears of a change later. */
 export const address = (page) => page.evaluate(() => location.href);
+/** What the link says after its '#'. */
+export const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
 /** The viewer has its float pictures. */
 export const ready = (page, count = 2) => page.waitForFunction((n) => Number(document.querySelector('.stage')?.dataset.ready) >= n, count);
@@ -97,6 +99,7 @@ export async function seenAt(page, shareX, shareY) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return page.evaluate(([x, y]) => {
     const canvas = document.querySelector('.stage canvas'), gl = canvas.getContext('webgl2');
+    if (!gl) return [...canvas.getContext('2d').getImageData(Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data.subarray(0, 3)];
     const pixel = new Uint8Array(4);
     gl.readPixels(Math.floor(x * canvas.width), Math.floor((1 - y) * canvas.height), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     return [...pixel.subarray(0, 3)];

@@ -4,36 +4,20 @@ import { readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { address, close, fileUrl, launch, lobelia, open, ready, requireAccessible, says, scratch, seenAt, serve } from './browser.mjs';
-import { errorOf, kPeak, ours, writeFarm } from './farm.mjs';
+import { close, fileUrl, hashOf, launch, lobelia, open, ready, requireAccessible, says, seenAt, serve } from './browser.mjs';
+import { cellSite, kCell, middle, near } from './cell_site.mjs';
+import { errorOf, ours, writeFarm } from './farm.mjs';
 
-const kSize = 64;
-const directory = scratch(), run = path.join(directory, 'run'), site = path.join(directory, 'site');
-const kCell = 'cells/phong-16/index.html';
-let browser, server;
+const kSize = 64, here = cellSite({ size: kSize }), { directory, run, site, cellPage } = here;
+let server;
+before(async () => { server = await serve(site); });
+after(() => server?.stop());
 
-before(async () => {
-  writeFarm(run, { axes: { model: ['phong', 'blinn'], exponent: ['16', '128'] }, size: kSize });
-  lobelia('gallery', run, '-o', site);
-  [browser, server] = await Promise.all([launch(), serve(site)]);
-});
-after(async () => { await browser?.close(); await server?.stop(); });
-
-const cellPage = async (hash = '', count = 2) => {
-  const page = await open(browser, fileUrl(site) + kCell + hash);
-  await ready(page, count);
-  return page;
-};
 const encoded = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
-const near = (seen, wanted, by = 2) =>
-  seen.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) <= by, `${seen} is not ${wanted}`));
-/** Just right of and below the middle: in pixel (32, 32). */
-const middle = async (stage) => { const box = await stage.boundingBox(); return { x: box.width / 2 + 2, y: box.height / 2 + 2 }; };
-const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
 for (const from of ['file', 'server']) {
   test(`opens from a ${from} without a complaint, and shows the float values of a pixel`, async () => {
-    const page = await open(browser, (from === 'file' ? fileUrl(site) : server.url) + kCell);
+    const page = await open(here.browser, (from === 'file' ? fileUrl(site) : server.url) + kCell);
     await ready(page);
     const stage = page.locator('.stage');
     await says(page, '.where', /^Pixel \(\d+, \d+\), where they differ most$/);
@@ -51,7 +35,7 @@ for (const from of ['file', 'server']) {
 
 test('the policy of a page lets nothing in from elsewhere, and runs no text as code', async () => {
   for (const base of [fileUrl(site), server.url]) {
-    const page = await open(browser, base + kCell);
+    const page = await open(here.browser, base + kCell);
     const [blocked, ran] = await page.evaluate(async () => {
       const seen = new Set(), add = (tag, properties) => document.head.append(Object.assign(document.createElement(tag), properties));
       document.addEventListener('securitypolicyviolation', (event) => seen.add(event.effectiveDirective));
@@ -116,52 +100,6 @@ test('the divider shows one picture left of it and the other right of it', async
   await close(page);
 });
 
-test('keys choose pictures and ways to compare, and the link says which', async () => {
-  const page = await cellPage();
-  await page.keyboard.press('4');
-  await page.keyboard.press('Shift+Digit2');
-  await page.keyboard.press('d');
-  let hash = await hashOf(page);
-  assert.deepEqual([hash.a, hash.b, hash.mode], ['blender', 'analytic', 'diff']);
-  await says(page, '.tags', /^Blender Cycles − Analytic$/);
-  await page.keyboard.press('x');
-  await page.keyboard.press('s');
-  await says(page, '.tags', /^AnalyticBlender Cycles$/);
-  await page.keyboard.press('f');
-  await says(page, '.tags', /^Analytic$/);
-  await page.keyboard.press('f');
-  await says(page, '.tags', /^Blender Cycles$/);
-  // The same again from the link alone.
-  const again = await open(browser, await address(page));
-  await ready(again);
-  await says(again, '.tags', /^Blender Cycles$/);
-  await close(again);
-  await close(page);
-});
-
-test('letters typed into a field are no commands', async () => {
-  const page = await cellPage();
-  await page.locator('select').first().focus();
-  await page.keyboard.press('d');
-  assert.equal((await hashOf(page)).mode, undefined);
-  await close(page);
-});
-
-test('zoom and pan go down to the pixel, together in both pictures', async () => {
-  const page = await cellPage('#mode=side');
-  await page.locator('.stage').focus();
-  for (let i = 0; i < 12; ++i) await page.keyboard.press('+');
-  const hash = await hashOf(page);
-  assert.ok(Number(hash.z) >= 32, `zoom ${hash.z}`);
-  await page.keyboard.press('Shift+ArrowRight');
-  assert.ok(Number((await hashOf(page)).x) > Number(hash.x));
-  const left = await seenAt(page, 0.1, 0.5), right = await seenAt(page, 0.6, 0.5);
-  near(left, right, 3);
-  await page.keyboard.press('0');
-  assert.equal((await hashOf(page)).z, undefined);
-  await close(page);
-});
-
 test('a difference has the scale that its legend prints, and false colour tells small ones apart', async () => {
   const page = await cellPage('#a=blender&b=lobelia&mode=diff');
   const [wide] = await seenAt(page, 0.5, 1 / 3);
@@ -206,6 +144,43 @@ test('a map by a metric has the largest value that the metric has, and is dark w
   await close(page);
 });
 
+test('beside a map is the histogram of its values, weighed as FLIP’s tool does, on the map’s own scale', async () => {
+  const bad = path.join(directory, 'bad'), badSite = path.join(directory, 'bad-site');
+  writeFarm(bad, { axes: { model: ['phong'] }, size: kSize, noise: 0.3 });
+  lobelia('gallery', bad, '-o', badSite);
+  const page = await open(here.browser, fileUrl(badSite) + 'cells/phong/index.html#mode=diff&a=lobelia&b=blender', { acceptDownloads: true });
+  await ready(page);
+  const histogram = page.locator('.map-histogram'), numbers = (words) => words.match(/\d+(?:\.\d+)?/g).map(Number);
+  assert.equal(await histogram.isVisible(), false, 'a difference of values has none');
+  for (const [id, title, top] of [['flip.ldr', 'LDR-FLIP, 0 to 1', 1], ['ciede2000', 'CIEDE2000', 10], ['delta_e_itp', 'delta E ITP', 10]]) {
+    await page.evaluate((measure) => { location.hash = `mode=diff&a=lobelia&b=blender&measure=${measure}`; }, id);
+    await says(page, '.legend-bar', new RegExp(`^0${top}${title}`));
+    await says(page, '.map-histogram h3', new RegExp(title));
+    // The same from the values that the figure of the map saves.
+    const csv = async (button) => {
+      await page.getByRole('button', { name: button }).click();
+      const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: /^CSV/ }).click()]);
+      await page.keyboard.press('Escape');
+      return readFileSync(await download.path(), 'utf8').trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+    };
+    const values = (await csv('Figure: what the viewer shows')).map((row) => row.at(-1)).sort((a, b) => a - b), sum = values.reduce((a, b) => a + b);
+    assert.equal(values.length, kSize * kSize);
+    const quartile = (share) => { let below = 0; return values.find((v) => (below += v) >= share * sum); };
+    const [mean, median, first, third, least, most] = numbers(await histogram.locator('figcaption').textContent());
+    const near3 = (a, b, what) => assert.ok(Math.abs(a - b) <= 6e-3 * b, `${id}, ${what}: ${a}, not ${b}`);
+    near3(mean, sum / values.length, 'mean');
+    [first, median, third].forEach((one, i) => near3(one, quartile((i + 1) / 4), `quartile ${i + 1}`));
+    near3(least, values[0], 'least');
+    near3(most, values.at(-1), 'most');
+    assert.deepEqual((await histogram.locator('svg .band-label').allTextContents()).slice(0, 2), ['min', 'mean']);
+    const bars = await csv('Figure: Values of the map');
+    assert.equal(bars.length, 100);
+    assert.ok(Math.abs(bars.reduce((all, [, y]) => all + y, 0) / (sum * 1e6 / values.length) - 1) < 1e-3, 'the bars have all values');
+  }
+  await requireAccessible(page, 'a map and its histogram');
+  await close(page);
+});
+
 test('the worst pixel of two pictures is found, and brought into the middle of a zoomed view', async () => {
   const page = await cellPage('#a=blender&b=lobelia&z=20&x=5&y=5');
   await page.keyboard.press('w');
@@ -213,24 +188,6 @@ test('the worst pixel of two pictures is found, and brought into the middle of a
   await says(page, '.where', /Pixel \(32, 21\), where they differ most/);
   const hash = await hashOf(page);
   assert.deepEqual([hash.x, hash.y], ['32.5', '21.5']);
-  await close(page);
-});
-
-test('a line drawn across the picture shows its profile', async () => {
-  const page = await cellPage('#mode=flip');
-  await page.getByRole('button', { name: 'Draw a line' }).click();
-  const box = await page.locator('.stage').boundingBox();
-  await page.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.3);
-  await page.mouse.down();
-  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.4, { steps: 4 });
-  await page.mouse.up();
-  assert.match((await hashOf(page)).line, /^\d+,\d+,\d+,\d+$/);
-  const chart = page.locator('.line-box svg.chart.interactive');
-  await chart.waitFor();
-  assert.equal(await chart.locator('path.series').count(), 2);
-  await chart.focus();
-  await page.keyboard.press('ArrowRight');
-  assert.match(await page.locator('.line-box .readout').textContent(), /at 0: Lobelia \d/);
   await close(page);
 });
 
@@ -260,7 +217,7 @@ test('commands, versions and hashes are there to be copied', async () => {
 });
 
 test('without script every picture and number is there', async () => {
-  const page = await open(browser, fileUrl(site) + kCell, { javaScriptEnabled: false });
+  const page = await open(here.browser, fileUrl(site) + kCell, { javaScriptEnabled: false });
   assert.equal(await page.locator('section.pictures img').count(), 7);
   assert.ok(await page.locator('section.pictures img').first().isVisible());
   assert.match(await page.locator('table.metrics').textContent(), /Largest difference, of the peak/);
@@ -276,27 +233,66 @@ test('on paper the pictures are there, and the controls are not', async () => {
   await close(page);
 });
 
-test('without WebGL 2 or float pictures it says so and shows the 8-bit ones', async () => {
+test('without WebGL 2 the processor paints the same pixels, and says so', async () => {
   const plain = await launch(['--disable-gpu', '--disable-3d-apis']);
-  const page = await open(plain, fileUrl(site) + kCell);
-  await page.getByText('no WebGL 2').waitFor();
-  page.problems.length = 0;
-  await page.context().close();
-  await plain.close();
+  try {
+    const page = await open(plain, fileUrl(site) + kCell), wanted = await cellPage();
+    await ready(page);
+    await says(page, '.stage-note', /^Painted by the processor/);
+    page.problems.length = 0;  // Chromium itself complains of the missing WebGL
+    const pair = 'a=blender&b=lobelia', shares = [0.1, 0.35, 0.52, 0.6], seen = new Set();
+    for (const hash of ['mode=flip&ev=0.5', 'mode=flip&colour=false', `${pair}&mode=side&z=7&x=30.2&y=20.7`, `${pair}&mode=slide&split=40`, `${pair}&mode=diff`, `${pair}&mode=diff&colour=false`,
+      `${pair}&mode=diff&measure=relative`, `${pair}&mode=diff&measure=signed`, `${pair}&mode=diff&measure=ciede2000&gain=8`, `${pair}&mode=diff&measure=ciede2000&colour=false`]) {
+      for (const one of [page, wanted]) {
+        await one.evaluate((text) => { location.hash = text; }, hash);
+        if (hash.includes('ciede2000')) await says(one, '.legend-bar', /the largest is/);
+      }
+      for (const x of shares)
+        for (const y of shares) {
+          const [a, b] = [await seenAt(page, x, y), await seenAt(wanted, x, y)];
+          near(a, b, 3);
+          seen.add(String(b));
+        }
+    }
+    assert.ok(seen.size > 60, `${seen.size} colours`);
+    await page.locator('.stage').focus();
+    await page.keyboard.press('ArrowLeft');
+    await says(page, '.pixel-values tbody td', /\d/);
+    await requireAccessible(page, 'without WebGL 2');
+    await close(page);
+    await close(wanted);
+  } finally {
+    await plain.close();
+  }
+});
+
+test('without float pictures it says so and shows the 8-bit ones', async () => {
   const bare = path.join(directory, 'bare');
   lobelia('gallery', run, '-o', bare, '--metrics-only');
   assert.deepEqual(readdirSync(bare, { recursive: true }).filter((f) => /\.exr$|\.float\.js$/.test(f)), []);
-  const small = await open(browser, fileUrl(bare) + kCell + '#mode=diff&a=lobelia&b=povray');
+  const small = await open(here.browser, fileUrl(bare) + kCell + '#mode=diff&a=lobelia&b=povray');
   await small.getByText('no float pictures').waitFor();
   await close(small);
 });
 
-test('axe finds nothing, in light and in dark, at rest and with everything open', async () => {
-  for (const colorScheme of ['light', 'dark']) {
-    const page = await open(browser, fileUrl(site) + kCell + '#mode=diff&colour=false&line=3,3,40,40&scale=ratio', { colorScheme });
+test('axe finds nothing, in light, in dark and in forced colours, at rest and with everything open', async () => {
+  for (const colours of [{ colorScheme: 'light' }, { colorScheme: 'dark' }, { forcedColors: 'active' }]) {
+    const page = await open(here.browser, fileUrl(site) + kCell + '#mode=diff&colour=false&line=3,3,40,40&scale=ratio', colours);
     await ready(page);
     await page.locator('.keys summary').click();
-    await requireAccessible(page, `cell in ${colorScheme}`);
+    await requireAccessible(page, `cell in ${JSON.stringify(colours)}`);
+    const [on, off] = await Promise.all(['true', 'false'].map((is) => page.locator(`button[aria-pressed=${is}]`).first().evaluate((e) => getComputedStyle(e).backgroundColor)));
+    assert.notEqual(on, off, 'what is pressed looks pressed');
+    if (colours.forcedColors) {
+      const chosen = await page.evaluate(() => {
+        const e = document.body.appendChild(document.createElement('i'));
+        Object.assign(e.style, { background: 'Highlight', forcedColorAdjust: 'none' });
+        const colour = getComputedStyle(e).backgroundColor;
+        e.remove();
+        return colour;
+      });
+      assert.equal(on, chosen, 'what is pressed has the system’s colour of what is chosen');
+    }
     await close(page);
   }
 });
@@ -306,7 +302,7 @@ for (const [what, noise] of [['smooth pictures', 0], ['pictures of coloured nois
     const big = path.join(directory, `big-${noise}`), bigSite = path.join(directory, `big-site-${noise}`);
     writeFarm(big, { axes: { model: ['phong'] }, size: 512, noise });
     lobelia('gallery', big, '-o', bigSite);
-    const page = await open(browser, fileUrl(bigSite) + 'cells/phong/index.html#mode=side&a=lobelia&b=blender');
+    const page = await open(here.browser, fileUrl(bigSite) + 'cells/phong/index.html#mode=side&a=lobelia&b=blender');
     await ready(page);
     await page.locator('.stage').hover();  // asks for the other engines' values
     await ready(page, 4);
@@ -341,40 +337,9 @@ test('what is under the rounding of a half float is 0, and no value has more dig
   await close(page);
 });
 
-test('the pixel that was chosen is in the link, and the next cell is seen as this one is', async () => {
-  const page = await cellPage('#mode=diff&b=blender&gain=2');
-  await page.locator('.stage').focus();
-  await page.keyboard.press('w');
-  await page.keyboard.press('ArrowRight');
-  const { at } = await hashOf(page);
-  assert.equal(at, '33,21');
-  await page.getByRole('link', { name: '128' }).first().click();
-  await page.waitForURL(/phong-128/);
-  await ready(page);
-  assert.deepEqual(await hashOf(page), { mode: 'diff', b: 'blender', gain: '2', at });
-  await says(page, '.where', /Pixel \(33, 21\)/);
-  await close(page);
-});
-
-test('an exposure beyond the bounds is taken for the nearest that there is, and the label says which', async () => {
-  const page = await cellPage('#mode=flip&ev=999');
-  await says(page, '.exposure label', /^Exposure 12\.68 stops$/);  // 14 above that of the pictures
-  await page.keyboard.press('e');
-  assert.ok(Math.abs(Number((await hashOf(page)).ev) - 12.678) < 1e-3);
-  await page.keyboard.press('E');
-  await says(page, '.exposure label', /^Exposure 12\.18 stops$/);
-  await close(page);
-});
-
-test('a hash that makes no sense does no harm', async () => {
-  const page = await cellPage('#a=<img src=x onerror=alert(1)>&mode=__proto__&z=nan&x=1e999&line=1,2,3&ev=x&measure=constructor&colour=%ff');
-  await says(page, '.tags', /^LobeliaPOV-Ray$/);
-  await close(page);
-});
-
 test('a damaged float picture is told, and the page goes on', async () => {
   writeFileSync(path.join(site, 'cells/blinn-16/povray.float.js'), "lobelia('something else','{}');");
-  const page = await open(browser, fileUrl(site) + 'cells/blinn-16/index.html');
+  const page = await open(here.browser, fileUrl(site) + 'cells/blinn-16/index.html');
   await page.getByText('holds no "float picture"').waitFor();
   await close(page);
 });

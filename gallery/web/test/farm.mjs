@@ -4,13 +4,13 @@ import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import * as zlib from 'node:zlib';
 
-const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
+export const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
 const json = (file, record) => writeFileSync(file, JSON.stringify(record));
 
 /** As the farm writes it, to the byte: by its seal a gallery knows that nobody has changed it. */
-const text = (record, indent) => JSON.stringify(record, null, indent).replace(/(?<=[:,[]\s*)-?[\d.]+(e[-+]?\d+)?(?=\s*[,\]}])/g,
+export const text = (record, indent) => JSON.stringify(record, null, indent).replace(/(?<=[:,[]\s*)-?[\d.]+(e[-+]?\d+)?(?=\s*[,\]}])/g,
   (number) => Math.abs(Number(number)) < 1e-4 ? Number(number).toExponential().replace(/^0e\+0$/, '0').replace(/e-(\d)$/, 'e-0$1') : number);
-const hash = (bytes) => createHash('sha256').update(bytes).digest('hex');
+export const hash = (bytes) => createHash('sha256').update(bytes).digest('hex');
 
 /** Puts the hashes of a cell's files into its record. */
 export function seal(cell) {
@@ -36,6 +36,11 @@ export function png(width, height, rgbOf) {
   const raw = Buffer.alloc(height * (1 + 3 * width));
   for (let y = 0; y < height; ++y)
     for (let x = 0; x < width; ++x) raw.set(rgbOf(x, y), y * (1 + 3 * width) + 1 + 3 * x);
+  return pngOf(width, height, raw);
+}
+
+/** `raw`: before each row of pixels its filter. */
+export function pngOf(width, height, raw, options = {}) {
   const chunk = (type, data) => {
     const body = Buffer.concat([Buffer.from(type), data]), ends = Buffer.alloc(8);
     ends.writeUInt32BE(data.length, 0);
@@ -46,7 +51,7 @@ export function png(width, height, rgbOf) {
   head.writeUInt32BE(width, 0);
   head.writeUInt32BE(height, 4);
   head.set([8, 2, 0, 0, 0], 8);
-  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(raw)),
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(raw, options)),
     chunk('IEND', Buffer.alloc(0))]);
 }
 
@@ -95,16 +100,23 @@ export const errorOf = { analytic: 0, povray: 2e-6, blender: 1e-3 };
 /** Something between -1 and 1 that looks like chance. */
 const dither = (x, y, c, seed) => { const v = Math.sin(x * 12.9898 + y * 78.233 + c * 37.7 + seed * 91.3) * 43758.5453; return 2 * (v - Math.floor(v)) - 1; };
 
-const kEngines = [['lobelia', 'Lobelia'], ['analytic', 'Analytic'], ['povray', 'POV-Ray'], ['blender', 'Blender Cycles']];
+export const kEngines = [['lobelia', 'Lobelia'], ['analytic', 'Analytic'], ['povray', 'POV-Ray'], ['blender', 'Blender Cycles']];
+
+/** All cells of a farm have the same pictures. */
+const shown = new Map();
+function shownOnce(key, make) {
+  if (!shown.has(key)) shown.set(key, make());
+  return shown.get(key);
+}
 
 function writeCell(cell, id, axes, status, size, pictures, noise) {
   mkdirSync(cell, { recursive: true });
-  const isFull = pictures === true;
+  const isFull = pictures === true, hasFigures = isFull || pictures === 'figures';
   if (isFull) writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
   const images = [];
   for (const [engine] of isFull ? kEngines : pictures ? kEngines.slice(0, 1) : []) {
     const value = (x, y) => ours(x, y, size).map((v, c) => (v + 0.2) * (1 + noise * dither(x, y, c, engine.length)) - 0.2 + v * (errorOf[engine] ?? 0));
-    writeFileSync(path.join(cell, `${engine}.png`), png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak))));
+    writeFileSync(path.join(cell, `${engine}.png`), shownOnce(`${engine} ${size} ${noise}`, () => png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak)))));
     images.push({ engine, ...(isFull ? { exr: `${engine}.exr` } : {}), png: `${engine}.png`, record: `${engine}.json`, sha256: '' });
     if (isFull) writeFileSync(path.join(cell, `${engine}.exr`), exr(size, size, value));
     const both = { engine: { name: engine, version: '1.2.3' }, command: ['lobelia', 'render', 'scene.xml'], image: { file: `${engine}.exr`, width: size, height: size } };
@@ -115,7 +127,7 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
       : made('reference', { ...both, witness: 'native', method: 'one pass', passes: 1, engineCommands: [], seconds: { total: 0.25 } }));
   }
   const comparisons = [];
-  for (const [engine] of isFull ? kEngines.slice(1) : []) {
+  for (const [engine] of hasFigures ? kEngines.slice(1) : []) {
     const worst = errorOf[engine], differs = status === 'differs' && engine === 'blender', limit = differs ? worst / 2 : 1e-2;
     json(path.join(cell, `lobelia-${engine}.json`), made('comparison', {
       verdict: differs ? 'differs' : 'pass', a: 'lobelia.exr', b: `${engine}.exr`, nonfinite: { a: 0, b: 0 },
@@ -123,7 +135,7 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
       metrics: { rmse: worst * 0.1, max_abs: worst * kPeak, 'max_abs.x': size / 2, 'max_abs.y': Math.round(size / 3), max_rel_peak: worst, ssim: 1 - worst, drift: engine === 'povray' ? -2e-7 : 1e-7 },
       limits: [{ metric: 'max_rel_peak', limit, value: worst, pass: !differs }], disagreement: [],
     }));
-    writeFileSync(path.join(cell, `lobelia-${engine}.png`), png(size, size, (x, y) => ours(x, y, size).map((v) => encode(v / kPeak))));
+    writeFileSync(path.join(cell, `lobelia-${engine}.png`), shownOnce(`difference ${size}`, () => png(size, size, (x, y) => ours(x, y, size).map((v) => encode(v / kPeak)))));
     comparisons.push({ a: 'lobelia', b: engine, record: `lobelia-${engine}.json`, png: `lobelia-${engine}.png`,
       difference: { whiteAt: (worst || 1e-6) * kPeak, relativeToPeak: worst || 1e-6 } });
   }
@@ -147,7 +159,7 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
 
 /**
  * Writes a farm. `axes`: { model: ['a', 'b'] }; `cell`: what to change of a cell of the product, by its number;
- * its `pictures` are true, false, or 'thumbnail' for ours alone, as an 8-bit file. `noise` is relative, in every value by itself.
+ * its `pictures` are true, false, or 'thumbnail' for ours alone, as an 8-bit file, 'figures' for that and comparisons. `noise` is relative, in every value by itself.
  */
 export function writeFarm(directory, { title = 'A small farm', axes, size = 64, noise = 0, cell = () => ({}) }) {
   const names = Object.keys(axes);

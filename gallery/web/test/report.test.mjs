@@ -45,7 +45,11 @@ before(async () => {
 });
 after(() => browser?.close());
 
-const names = (page) => page.locator('.of-pairs .cell-name').allTextContents();
+/** Of the seven pairs, once all rows are drawn: those that come into view are. */
+const names = async (page) => {
+  await page.locator('.of-pairs .cell-name').nth(6).waitFor({ state: 'attached' });
+  return page.locator('.of-pairs .cell-name').allTextContents();
+};
 
 test('lists all pairs, the worst first, each with its pictures and a sentence', async () => {
   const page = await open(browser, fileUrl(site) + 'index.html');
@@ -161,7 +165,8 @@ test('a phone shows the list without scrolling sideways', async () => {
 test('a thousand pairs are all there', async () => {
   const page = await open(browser, fileUrl(path.join(directory, 'thousand')) + 'index.html');
   assert.equal(await page.locator('.count').textContent(), `showing ${kMany} of ${kMany} pairs`);
-  assert.equal(await page.locator('.of-pairs li').count(), kMany);
+  assert.equal(await page.locator('.of-pairs li').first().getAttribute('aria-setsize'), String(kMany));
+  assert.ok(await page.locator('.of-pairs li').count() < 60, 'those in view');
   assert.deepEqual((await names(page)).slice(0, 4).sort(), ['257.exr', '507.exr', '7.exr', '757.exr']);
   await page.locator('#find').fill('999');
   await says(page, '.count', /showing 1 of 1000 pairs/);

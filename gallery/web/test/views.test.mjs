@@ -1,64 +1,28 @@
 // Explorer, stability, paper and cost: each opens, keeps its state in the link, and can be used by keys.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
-import { address, close, fileUrl, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
+import { address, close, fileUrl, hashOf, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
+import { writeStudies } from './studies.mjs';
 
 const directory = scratch(), run = path.join(directory, 'run'), site = path.join(directory, 'site');
 const kViews = { explorer: 'Explorer', stability: 'Stability', paper: 'Paper', cost: 'Cost', search: 'Cheapest lobes' };
 const kHostile = '<img src=x onerror=alert(1)>';
-const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
 let browser, server, tables;
-
-function put(file, record) {
-  mkdirSync(path.dirname(path.join(run, file)), { recursive: true });
-  writeFileSync(path.join(run, file), JSON.stringify(record));
-}
-
-const errors = (ofPeak) => ({ ofPeak, ulp: ofPeak === 'inf' ? 'inf' : ofPeak * 1e7, wrongPixels: 0 });
-const summary = (rest, naive) => ({ group: 'lobe', ...rest, cases: 3, outside: 0, notCompared: 0, naive: errors(naive), ours: errors(1e-8), ofBound: 0.5 });
-const curve = (exponent) => ({ exponent, model: 'modified_phong', lobe: 'cosine', degrees: [0, 1, 2], truth: [1, 0.5, 0.1], naive: [1.2, 0.4, 'inf'], ours: [1, 0.5, 0.1] });
-const claim = (name, verdict) => ({ name, where: 'eq. (1)', statement: `it is so: ${name}`, printed: '1.7e-2', verdict,
-  measured: [{ what: 'largest', value: 0.017, text: '1.70e-2', at: 'n = 16' }], definition: 'by a scan', reason: '' });
-const variant = (name, median, max) => ({ name, settings: {}, seconds: { median, spread: 0.05, least: median, most: median, rounds: 5 }, errors: { max } });
 
 before(async () => {
   writeFarm(run, { axes: { model: ['phong'] }, size: 8, cell: () => ({}) });
-  mkdirSync(path.join(run, 'explorer'));
-  lobelia('models', '--tables', path.join(run, 'explorer/tables.json'));
-  tables = JSON.parse(readFileSync(path.join(run, 'explorer/tables.json'), 'utf8'));
-  put('stability/stability.json', made('verify-stability', {
-    command: ['lobelia', 'verify', 'stability'], instructionSet: 'AVX2', cases: 9, outside: 0, notCompared: 0, byLobe: [], groups: [{ name: 'lobe', meaning: kHostile }],
-    byCase: [summary({ case: kHostile }, 'inf')],
-    byExponent: ['cosine', 'cs16'].flatMap((lobe) => [1, 100, 1e4].map((n) => summary({ lobe, exponent: n }, lobe === 'cs16' && n > 100 ? 'inf' : n * 1e-6))),
-    curves: [curve(1e3), curve(1e6)],
-  }));
-  put('paper/paper.json', made('verify-paper', {
-    command: ['lobelia', 'verify', 'paper'], confirmed: 1, notReproduced: 1, found: 1, claims: [claim('first', 'confirmed'), claim('second', 'not reproduced'), claim(kHostile, 'found')],
-    figures: [{ id: 'a"b', title: 'A figure', description: 'shown', x: { label: 'n', from: 16, to: 1024, logarithmic: true, ticks: [16, 1024] },
-      y: { label: 'energy', from: 0, to: 1 }, bands: [], series: [{ name: 'line', style: 1, x: [16, 128, 1024], y: [0, 0.25, 0.5] }], claims: ['second'] }],
-  }));
-  put('cost/cost.json', made('cost', { command: ['lobelia', 'cost'], host: { processor: 'abacus', threads: 2, system: 'Debian' }, instructionSet: 'AVX2', tables: [{
-    id: 'lobe', unit: 's', level: 'lobe', title: 'A lobe', per: 'evaluation', errors: [{ id: 'max', meaning: 'largest error' }],
-    ways: [variant('quick', 1e-9, 0.1), variant('middling', 2e-9, 0.05), variant('slow', 8e-9, 1e-7), variant(kHostile, 9e-9, 0.2), variant('unknown', 1e-9, 'nan')],
-    fronts: { max: { ways: ['quick', 'middling', 'slow'], dominatedBy: {}, inWords: ['quick to slow'], chart: 'lobe-max.svg' } }, remarks: [] }] }));
-  mkdirSync(path.join(run, 'search'));
-  const searchFile = path.join(run, 'search/search.json');
-  lobelia('search', '-q', '--operations', '5', '--family', 'pk', '-o', searchFile);
-  const found = JSON.parse(readFileSync(searchFile, 'utf8'));
-  found.lobes[0].formula = kHostile;
-  put('search/search.json', found);
+  tables = writeStudies(run, kHostile);
   lobelia('gallery', run, '-o', site);
   [browser, server] = await Promise.all([launch(), serve(site)]);
 });
 after(async () => { await browser?.close(); await server?.stop(); });
 
 const view = (name, hash = '', options = {}) => open(browser, `${fileUrl(site)}${name}.html${hash}`, options);
-const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
 for (const [name, title] of Object.entries(kViews)) {
   test(`${name}: opens from a file and from a server, is linked, and axe finds nothing in light or dark`, async () => {
@@ -127,7 +91,7 @@ test('explorer: what the script interpolates is what the library gives', async (
 });
 
 test('explorer: says what the library says, from a link', async () => {
-  const models = JSON.parse(lobelia('models', '--json', '--exponent', '37.3'));
+  const models = JSON.parse(lobelia('models', '--json', '-', '--exponent', '37.3'));
   const highlight = models.highlights.find((h) => h.model === 'blinn_phong_rdf' && h.lobe === 'cs16' && h.normalisation === 'paper');
   const page = await view('explorer', '#model=blinn_phong_rdf&lobe=cs16&norm=paper&n=37.3&two=0');
   const row = (title) => page.locator('.explorer-numbers tr', { hasText: title }).locator('td').first().textContent();
@@ -162,7 +126,7 @@ test('explorer: exponent by slider and by number, two highlights, all of it in t
   assert.equal(await again.locator('#n').inputValue(), '20');
   assert.equal(await again.locator('.explorer svg.interactive path.series').first().getAttribute('d'), await drawn());
   await page.locator('#two').uncheck();
-  assert.equal(await page.locator('.explorer figure').first().locator('path.series').count(), 1);
+  assert.equal(await page.locator('.explorer svg.interactive').first().locator('path.series').count(), 1);
   await close(again);
   await close(page);
 });
@@ -189,6 +153,23 @@ test('stability: cases, lobe and exponent by choice; what is no number is at the
   await close(page);
 });
 
+test('stability and paper: one chart a screen, and each row of pictures is a figure', async () => {
+  for (const name of ['stability', 'paper']) {
+    const page = await view(name), lefts = await page.locator('.figure-grid .chart-figure:visible').evaluateAll((all) => all.map((e) => e.getBoundingClientRect().left));
+    assert.ok(lefts.length >= 1 && new Set(lefts).size === 1, `${name}: ${lefts}`);
+    await close(page);
+  }
+  const page = await open(browser, `${server.url}stability.html`, { acceptDownloads: true });
+  assert.equal(await page.locator('.charts .finding').count(), 2, 'each chart has its sentence');
+  await page.waitForFunction(() => [...document.querySelectorAll('.picture-four img')].every((i) => i.complete && i.naturalWidth > 0));
+  await page.getByRole('button', { name: 'Figure: Close to a highlight, n = 1000' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: 'SVG' }).click()]);
+  const text = readFileSync(await download.path(), 'utf8');
+  assert.match(text, /href="data:image\/png;base64,/);
+  for (const words of ['naive float32', 'error of ours: at most 0.01', '10⁻⁸']) assert.ok(text.includes(words), words);
+  await close(page);
+});
+
 test('paper: claims by verdict and words, and a link to one shows it', async () => {
   const page = await view('paper');
   await says(page, '.count', /showing 3 of 3/);
@@ -211,23 +192,52 @@ test('paper: claims by verdict and words, and a link to one shows it', async () 
 
 test('cost: a variant is marked in chart and table, by pointer and by keys, and in the link', async () => {
   const page = await view('cost');
-  const marked = () => page.locator('.marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
+  const marked = () => page.locator('tr.marked, .wide .marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
   await page.locator('tr[data-key=slow]').hover();
   assert.deepEqual(await marked(), ['TR slow', 'g slow']);
-  await says(page, '.readout', /slow: 8\.00 ns ± 5 %, max/);
+  await says(page, '.readout', /slow: 8\.00 ns, ± 5 %, largest error/);
   await page.mouse.move(0, 0);
   assert.deepEqual(await marked(), []);
-  await page.locator('g.point[data-key=quick]').focus();
+  await page.locator('.wide g.point[data-key=quick]').focus();
   await page.keyboard.press('ArrowRight');
   assert.deepEqual(await marked(), ['TR middling', 'g middling']);
   await page.keyboard.press('Enter');
   assert.deepEqual(await hashOf(page), { table: '0', variant: 'middling' });
   const again = await open(browser, await address(page));
-  assert.deepEqual(await again.locator('.marked').evaluateAll((all) => all.map((e) => e.dataset.key)), ['middling', 'middling']);
+  assert.deepEqual(await again.locator('tr.marked, .wide .marked').evaluateAll((all) => all.map((e) => e.dataset.key)), ['middling', 'middling']);
   await close(again);
   await page.keyboard.press('Enter');
   assert.equal(new URL(await address(page)).hash, '#top');
-  assert.equal(await page.locator('g.point[tabindex="0"]').count(), 1);
+  assert.equal(await page.locator('.wide g.point[tabindex="0"]').count(), 1);
+  await close(page);
+});
+
+test('no page has a formula as it is typed, or a path of the machine that made the run', async () => {
+  for (const name of Object.keys(kViews)) {
+    const page = await view(name);
+    const words = await page.evaluate(() => {
+      for (const details of document.querySelectorAll('details')) details.open = true;
+      for (const exempt of document.querySelectorAll('pre:not(.command), .choice pre')) exempt.remove();
+      return document.querySelector('main').innerText;
+    });
+    for (const typed of [/\d[eE][-+]?\d/, /sqrt\(/, /\^[n(\d]/, /theta_/, /\(1 - /, /± 0 %/, /\/srv\//, /\/tmp\//])
+      assert.doesNotMatch(words, typed, `${name}: ${typed}`);
+    await close(page);
+  }
+});
+
+test('cost: is read on a phone, and its chart is a figure', async () => {
+  const page = await view('cost', '', { viewport: { width: 390, height: 800 }, acceptDownloads: true });
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the screen');
+  assert.equal(await page.locator('.wide svg.chart').first().isVisible(), false);
+  const small = await page.locator('.narrow svg.chart').first().evaluate((chart) => Math.min(...[...chart.querySelectorAll('text')].map((t) => parseFloat(getComputedStyle(t).fontSize))) * chart.clientWidth / chart.viewBox.baseVal.width);
+  assert.ok(small > 10, `the smallest letters have ${small} pixels`);
+  await page.locator('.narrow .figure-button').first().click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: /^CSV/ }).click()]);
+  assert.equal(download.suggestedFilename(), 'cost-lobe-max.csv');
+  const lines = readFileSync(await download.path(), 'utf8').trim().split('\n');
+  assert.equal(lines.length, 5);
+  assert.ok(lines.includes('quick,1,0.1'), lines.join('\n'));
   await close(page);
 });
 

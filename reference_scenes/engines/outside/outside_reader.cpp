@@ -24,6 +24,16 @@ constexpr double kUsualOfValue = 1e-3, kUsualOfPeak = 1e-6;
 /// Names that would be a cell's own files.
 constexpr std::string_view kTaken[] = {"lobelia", "profile", "cell", "scene", "farm"};
 
+std::vector<std::string_view> form_names() {
+  std::vector<std::string_view> names;
+  for (const SceneFormat& format : scene_formats()) names.push_back(format.name);
+  return names;
+}
+
+XmlAttribute text(std::string_view name, std::string_view default_value, std::string_view meaning) {
+  return {{name, ParameterType::kString, default_value, 0, 0, "", meaning}};
+}
+
 class Reader {
  public:
   Reader(XmlSource& source, pugi::xml_node node, const fs::path& directory)
@@ -34,11 +44,8 @@ class Reader {
 
   std::optional<OutsideEngine> read() {
     const bool is_pictures = std::string_view(node_.name()) == "pictures";
-    if (is_pictures)
-      source_.check_attributes(node_, {"name", "title", "files", "tolerance"});
-    else
-      source_.check_attributes(node_, {"name", "title", "command", "version-command", "scene",
-                                       "tolerance", "effects", "environment"});
+    source_.check_attributes(node_,
+                             find_element(outside_elements(), node_.name()).attribute_names());
     read_name();
     constexpr std::size_t kMostTitle = 100;
     engine_.title = node_.attribute("title").as_string(engine_.name.c_str());
@@ -123,8 +130,7 @@ class Reader {
 
   void read_scene_form() {
     engine_.scene = node_.attribute("scene").as_string("lobelia");
-    std::vector<std::string_view> names;
-    for (const SceneFormat& format : scene_formats()) names.push_back(format.name);
+    const std::vector<std::string_view> names = form_names();
     if (std::ranges::find(names, engine_.scene) == names.end())
       error("scene", fmt::format("form of scene '{}'; allowed: {}{}", printable(engine_.scene),
                                  join(names), did_you_mean(engine_.scene, names)));
@@ -164,6 +170,31 @@ class Reader {
 };
 
 }  // namespace
+
+std::span<const XmlElement> outside_elements() {
+  constexpr std::string_view none = "none";
+  static const XmlAttribute name = text("name", "", "of its files: small letters, digits, _"),
+                            title = text("title", "the name", "of its column"),
+                            tolerance = text("tolerance", "1e-3, 1e-6",
+                                             "a share of each value, and a share of the peak");
+  static const std::vector<XmlElement> elements{
+      {"engine",
+       "an engine to compare with: one that Lobelia knows, by its name, or your own",
+       {name,
+        title,
+        text("command", none, "program and arguments, with {scene} and {out}"),
+        text("version-command", none, "prints the version on its first line"),
+        {{"scene", ParameterType::kString, "lobelia", 0, 0, "", "the form of the scene's file"},
+         form_names()},
+        tolerance,
+        text("effects", "all", "the effects of light that it can show"),
+        text("environment", none, "names of environment variables that it gets")}},
+      {"pictures",
+       "pictures that are there already",
+       {name, title, text("files", "", "their paths; {axis} is the cell's value"), tolerance}},
+  };
+  return elements;
+}
 
 bool is_outside_engine(pugi::xml_node node) { return bool(node.attribute("command")); }
 

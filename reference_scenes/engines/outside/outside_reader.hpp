@@ -5,9 +5,13 @@
 #include <optional>
 
 #include "records/outside_engine.hpp"
+#include "renderer/scene/xml_format.hpp"
 #include "renderer/scene/xml_source.hpp"
 
 namespace lobelia {
+
+/// <engine> and <pictures>.
+std::span<const XmlElement> outside_elements();
 
 /// Whether the <engine> describes one, and does not just name one of the catalogue.
 bool is_outside_engine(pugi::xml_node node);

@@ -13,6 +13,7 @@
 #include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/pixel_ray.hpp"
+#include "renderer/scene/contact.hpp"
 #include "shaders/povray.hpp"
 
 namespace lobelia {
@@ -49,14 +50,14 @@ bool is_native(const Material& material, bool expressed) {
   return !has_highlight(material) || (!expressed && has_native_highlight(material));
 }
 
-std::string lamp_text(const Lamp& lamp, const Scene& scene) {
+std::string lamp_text(const Lamp& lamp, const Scene& scene, double closeness) {
   if (lamp.is_distant) {
     // Beyond all that is visible of an infinite plane, but within POV-Ray's farthest ray, 1e7.
     const double far = scene.planes.empty() ? 1000 * extent(scene) : 1e6;
     return fmt::format("Lobelia_Directional_Light({}, {}, {})\n", sdl(lamp.direction),
                        sdl(lamp.strength), sdl(far));
   }
-  const double nearest = nearest_surface(lamp, scene);
+  const double nearest = nearest_surface(lamp, scene, closeness);
   if (lamp.has_normal())
     return fmt::format("Lobelia_Surface_Light({}, {}, {}, {})\n", sdl(lamp.position),
                        sdl(lamp.normal), sdl(lamp.strength), sdl(nearest));
@@ -175,7 +176,8 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
       "Lobelia_Camera({}, {}, {}, {}, {}/{}, {}, {})\n", sdl(camera.origin), sdl(camera.target),
       sdl(camera.up), sdl(camera.fov_degrees), scene.film.width, scene.film.height,
       sdl(camera.principal_point_offset_x), sdl(camera.principal_point_offset_y));
-  for (const Light& light : lights) pass.surfaces += lamp_text(lamp_of(light), scene);
+  const double close = closeness(scene);
+  for (const Light& light : lights) pass.surfaces += lamp_text(lamp_of(light), scene, close);
   pass.surfaces += surfaces_text(scene, expressed);
   return pass;
 }

@@ -19,8 +19,15 @@ struct Glossy {
     const bool single = scene.spheres.size() + scene.planes.size() < 2;
     if (all || !single) plan.depth.glossy = scene.depth.glossy;
     if (single) return {all, "one convex body throws no light on itself"};
+    const auto lamps = std::ranges::count_if(scene.lights, is_delta);
+    plan.draws_lamp = !plan.experiment.sum_all_lights && lamps > std::ptrdiff_t(kMaxSummedLights);
     return {true,
-            fmt::format("inter-reflection was asked for, up to {} times", scene.depth.glossy)};
+            fmt::format("inter-reflection was asked for, up to {} times{}", scene.depth.glossy,
+                        plan.draws_lamp
+                            ? fmt::format("; after the first surface, each point draws one of {} "
+                                          "lights without a size, by power and distance",
+                                          lamps)
+                            : "")};
   }
 
   static void leave_out(Scene& scene, Experiment&) { scene.depth.glossy = 0; }

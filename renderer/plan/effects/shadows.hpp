@@ -29,8 +29,9 @@ struct Shadows {
     if (scene.spheres.size() + scene.planes.size() < 2)
       return {on, "one convex body shadows itself only where N.L <= 0, which every model knows"};
     if (uncounted)
-      return {on, fmt::format("{} spheres: too many to rule pairs of them out one by one",
-                              scene.spheres.size())};
+      return {on, fmt::format(
+                      "{} spheres under {} lights: too many to rule pairs of them out one by one",
+                      scene.spheres.size(), scene.lights.size())};
     if (!on) return {on, "no surface can stand between another one and a light"};
     return {on,
             fmt::format("{} pairs of a surface and another that may stand between it and a light",

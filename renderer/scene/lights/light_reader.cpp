@@ -119,13 +119,29 @@ std::shared_ptr<const Image> EnvironmentMaps::read(const std::string& file) {
 std::optional<Light> LightReader::read(pugi::xml_node node) {
   static constexpr auto kMake = map_types<Light (*)(const Values&, LightSource&)>(
       Lights{}, []<class L>() { return &make_light<L>; });
-  reader_.source().check_attributes(node, {"type", "id"});
+  reader_.check_attributes(node);
   const auto formats = emitter_formats();
   const ElementFormat* format = reader_.format_of(node, formats);
   if (!format) return std::nullopt;
-  const Values values = reader_.read_parameters(node, format->parameters, {});
+  static constexpr auto kKinds =
+      map_types<LightKind>(Lights{}, []<class L>() { return L::kInfo.kind; });
+  if (kKinds[std::size_t(format - formats.data())] == LightKind::kEnvironment &&
+      !count_environment(node))
+    return std::nullopt;
+  const Values values = reader_.read_parameters(node, format->parameters);
   ElementOfLight element(node, values, reader_.source(), maps_);
   return kMake[std::size_t(format - formats.data())](values, element);
+}
+
+bool LightReader::count_environment(pugi::xml_node node) {
+  return reader_.within(node, "constant and envmap emitters", kMaxEnvironments, environments_++);
+}
+
+void LightReader::check_pairs(pugi::xml_node node, std::size_t lights, std::size_t shapes) {
+  if (shapes > 0 && lights > std::size_t(kMaxLightsTimesShapes) / shapes)
+    reader_.source().error(
+        node, fmt::format("{} emitters times {} spheres and planes; allowed: {} in all", lights,
+                          shapes, kMaxLightsTimesShapes));
 }
 
 }  // namespace lobelia

@@ -32,12 +32,17 @@ class LightReader {
   LightReader(ElementReader& reader, const std::filesystem::path& directory)
       : reader_(reader), maps_(directory) {}
 
-  /// Nothing if the element's type is no light.
+  /// Nothing if the element's type is no light, or for one environment too many.
   std::optional<Light> read(pugi::xml_node node);
+  /// Counts an environment; false and an error for one too many.
+  bool count_environment(pugi::xml_node node);
+  /// Reports an error at the scene's element if so many lights and shapes are too many together.
+  void check_pairs(pugi::xml_node node, std::size_t lights, std::size_t shapes);
 
  private:
   ElementReader& reader_;
   EnvironmentMaps maps_;
+  std::int64_t environments_ = 0;
 };
 
 }  // namespace lobelia

@@ -42,8 +42,8 @@ Claim bounds_blinn_phong_rdf() {
   claim.definition = kDefinition;
   claim.verdict = confirmed_if(holds);
   claim.reason =
-      "8 pi C = (n + 2)/(1 - 2^(-n/2 - 1)): above n + 2 by an amount that vanishes quickly, and "
-      "equal to n + 4 at n = 0 only";
+      "8 pi C = (n + 2)/(1 - 2^(-n/2 - 1)). It is above n + 2, equals n + 4 at n = 0 only, and tends to n +"
+      " 2";
   return claim;
 }
 

@@ -114,8 +114,7 @@ Claim cosine_column() {
       worst = std::max(worst, largest_residual(row, row.cosine_column));
   claim.measured = {vanishing("largest distance of the energy from 1 of the five", worst, 1e-14)};
   claim.definition =
-      "printed coefficient times the row's integral; n = 1, 2, 16, 17.5, 64, 128, "
-      "500, 1024, because the closed forms hold for every n";
+      "printed coefficient times the row's integral, at n = 1, 2, 16, 17.5, 64, 128, 500, 1024";
   claim.verdict = confirmed_if(worst < 1e-14L);
   return claim;
 }
@@ -130,7 +129,7 @@ Claim cosine_modified_blinn_phong() {
                     vanishing("largest distance of the energy from 1 with 8 pi", corrected, 1e-14)};
   claim.definition = "as for the other rows";
   claim.verdict = confirmed_if(std::abs(at_16 - 1) < 1e-14L);
-  claim.reason = "a misprint: with 8 pi for 4 pi it is exact, as the paper's own bounds need";
+  claim.reason = "a misprint. With 8 pi for 4 pi it is exact, as the paper's own bounds require";
   return claim;
 }
 
@@ -138,7 +137,7 @@ Claim cosine_modified_blinn_phong() {
 
 Claim residual_phong_rdf() {
   Claim claim = residual("residual-phong-rdf", kPhong, 4.7e-4, 1e-5);
-  claim.reason = "all of it is 1.063 for 17/16: the same at every n, and always above 1";
+  claim.reason = "1.063 is printed for 17/16. The error is the same at every n, and always above 1";
   return claim;
 }
 
@@ -155,8 +154,8 @@ Claim residual_blinn_phong_rdf_cut() {
 Claim residual_blinn_phong_rdf() {
   Claim claim = residual("residual-blinn-phong-rdf", kBlinn, 1.5e-3, 1e-4);
   claim.reason =
-      "the figure is that of the integral cut at x = 6/sqrt(n), but the lobe of the half angle "
-      "reaches twice as far; the coefficient is too large by what was cut off, above 1 at every n";
+      "the paper cuts the integral at x = 6/sqrt(n), but the lobe of the half angle reaches twice as far. "
+      "So the coefficient is too large, and the energy above 1 at every n";
   return claim;
 }
 
@@ -170,8 +169,8 @@ Claim residual_modified_blinn_phong() {
   claim.measured.push_back(figure("largest from n = 32 on", wide, 2));
   claim.measured.push_back(figure("largest, cut at x = 6/sqrt(n)", cut, 2));
   claim.reason =
-      "energy is lost at every n. 1.027 is far from the 17/16 = 1.0625 that the coefficient tends "
-      "to; where it comes from is not known (best-digits)";
+      "energy is lost at every n. The coefficient tends to 17/16 = 1.0625, far from 1.027; the source of "
+      "1.027 is not known (best-digits)";
   return claim;
 }
 
@@ -187,8 +186,7 @@ Claim residual_distributions() {
   claim.measured.push_back(heightfield.measured[0]);
   claim.measured[1].what = "heightfield, " + claim.measured[1].what;
   claim.definition =
-      "as rows 1 and 2, whose coefficients and integrands these rows share, with x the angle "
-      "between normal and half vector; n real in 16..1024";
+      "as rows 1 and 2, with x the angle between normal and half vector; n real in 16..1024";
   if (heightfield.verdict != kConfirmed) claim.verdict = kNotReproduced;
   claim.reason = "a distribution's integral is not the reflected energy (distribution-as-brdf)";
   return claim;
@@ -206,11 +204,10 @@ Claim outside_the_range() {
                                      n > 100 ? "n = 1e6" : at_exponent(n)));
   }
   claim.definition =
-      "printed coefficient times the row's integral over the lobe's support, cut at a right angle: "
-      "below 16 the lobe is wider than that, and below 8 theta_cr does not exist";
+      "printed coefficient times the row's integral over the lobe's support, cut at a right angle. Below n "
+      "= 16 the lobe is wider, and below 8 theta_cr does not exist";
   claim.reason =
-      "above the range the residual is that of the factor of n alone, 1.063, 1.068 or 1.027 for 17/16; "
-      "below it the fits fail";
+      "above the range only the factor of n counts: 1.063, 1.068 or 1.027 for 17/16. Below it the fits fail";
   return claim;
 }
 
@@ -226,9 +223,7 @@ Claim factor_1063() {
                     figure("residual that 1.062 leaves", 1.062L / exact - 1, 3)};
   claim.definition = "2 pi over n times 2 pi times the integral of cs16(x) sin x";
   claim.verdict = confirmed_if(rounds_to(exact, 1.063, 1.0001e-3));
-  claim.reason =
-      "it is 17/16 = 1.0625, and 1.0625 n/(2 pi) is exact; 1.062 would be as near, and "
-      "would not make energy";
+  claim.reason = "1.0625 n/(2 pi) is exact. 1.062 would be as near, and would not create energy";
   return claim;
 }
 
@@ -251,10 +246,10 @@ Claim best_digits() {
       figure("the best with one digit changed in each of 1.027 and 4.8",
              best_misprint(modified_blinn), 2)};
   claim.definition =
-      "least largest distance of the energy from 1 over n = 16..1024, a in thousandths, b with the decimals that are "
-      "printed; over the lobe's whole support";
+      "the pair a, b with the least largest distance of the energy from 1 over n = 16..1024, with as many "
+      "decimals as printed, over the lobe's whole support";
   claim.reason =
-      "the printed ones leave 1.3e-3, 5.2e-3 and 5.6e-2: a third, a quarter and a tenth would do. No "
+      "the printed ones leave 1.3e-3, 5.2e-3 and 5.6e-2: three, four and ten times what is possible. No "
       "misprint of one digit in each constant explains row 4's 9.5e-3";
   return claim;
 }

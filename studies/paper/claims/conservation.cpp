@@ -56,8 +56,8 @@ Claim energy_of_cs16() {
       "at normal incidence over the lobe's whole support, n real in 16..1024, printed coefficients";
   claim.verdict = confirmed_if(holds);
   claim.reason =
-      "the first three make energy at every n, by their residual; modified Blinn-Phong "
-      "loses it at every n. A fit that is to conserve energy has to stay below 1";
+      "the first three create energy at every n; modified Blinn-Phong loses it. A fit that conserves energy"
+      " has to stay below 1";
   return claim;
 }
 
@@ -94,12 +94,11 @@ Claim more_accurate_energy() {
              of_row(classical, of_classical)),
       figure("exponent at which that of Blinn-Phong (RDF) is 1 by chance", 8 * kPi - 2, 3)};
   claim.definition =
-      "energy at normal incidence over the lobe's whole support, rows 1 to 4, n real in 16..1024: cs16 with its "
-      "printed coefficient, and cos^n as Phong and Blinn published it, with 1 for a coefficient. Confirmed if the "
-      "largest distance of the new ones is the smaller";
+      "energy at normal incidence over the lobe's whole support, rows 1 to 4, n real in 16..1024: cs16 with"
+      " its printed coefficient against cos^n with the coefficient 1, as Phong and Blinn published it. "
+      "Confirmed if the new models' largest distance is smaller";
   claim.verdict = confirmed_if(ours.value < classical.value);
-  claim.reason =
-      "a coefficient is what it takes; about n = 23 the classical Blinn-Phong needs none";
+  claim.reason = "a coefficient alone does that. Near n = 23 the classical Blinn-Phong needs none";
   return claim;
 }
 
@@ -121,11 +120,11 @@ Claim more_accurate_normalised() {
     claim.measured.push_back(vanishing(fmt::format("{}, cos^n", row.title), cosine.value, 1e-14));
   }
   claim.definition =
-      "as for more-accurate-energy, but cos^n with the coefficient of its own column, row 4's misprint corrected. "
+      "as for more-accurate-energy, but cos^n has its own column's coefficient, with row 4 corrected. "
       "Confirmed if cs16 is nearer in any row";
   claim.verdict = confirmed_if(nearer);
   claim.reason =
-      "that column is exact, the cs16 column fitted: the new models are cheaper, not more accurate";
+      "the cos^n column is exact, the cs16 column is fitted. The new models are cheaper, not more accurate";
   return claim;
 }
 
@@ -141,13 +140,12 @@ Claim energy_of_brdfs() {
     claim.measured.push_back(figure(fmt::format("{} at 60 degrees", kRows[number].title),
                                     reflected(kRows[number], 64, 60, Held::kBeam), 3, "n = 64"));
   claim.definition =
-      "reflected over arriving power of a beam, incidence 0..89 degrees, n = 16, 64, 256, 1024, "
-      "cos^n with row 4's misprint corrected. As printed row 4 reflects 2, and the cs16 column its "
-      "residual more (energy-cs16)";
+      "reflected over arriving power of a beam, incidence 0..89 degrees, n = 16, 64, 256, 1024, cos^n with "
+      "row 4 corrected. For cs16 see energy-cs16";
   claim.verdict = confirmed_if(most.value < 1 + 1e-8L);
   claim.reason =
-      "most is reflected at normal incidence; away from it modified Phong falls as the "
-      "cosine and the others as its square, so a mirror it never is";
+      "most is reflected at normal incidence. Away from it modified Phong falls as the cosine, the others "
+      "as its square";
   return claim;
 }
 
@@ -162,8 +160,7 @@ Claim energy_of_rdfs_seen() {
                     figure("Blinn-Phong (RDF) at 89 degrees",
                            reflected(kRows[kBlinn], 64, 89, Held::kEye), 3, "n = 64")};
   claim.definition =
-      "radiance seen at 0..89 degrees in surroundings of radiance 1: the integral over the lights that "
-      "the paper normalises, at every angle of the eye; n = 16, 64, 256, 1024, cos^n";
+      "radiance seen at 0..89 degrees in surroundings of radiance 1, cos^n, n = 16, 64, 256, 1024";
   claim.verdict = confirmed_if(most.value < 1 + 1e-8L);
   claim.reason = "the horizon only takes from the lobe";
   return claim;
@@ -187,30 +184,30 @@ Claim energy_of_rdfs_lit() {
                                       at_exponent(n)));
     }
   claim.definition =
-      "reflected over arriving power of a beam: the integral over to_eye of radiance (N.V)/(N.L); "
-      "cos^n column, which is exact in the paper's sense";
+      "reflected over arriving power of a beam: the integral over to_eye of radiance (N.V)/(N.L), cos^n "
+      "column";
   claim.verdict = confirmed_if(holds);
   claim.reason =
-      "the power that arrives on an area falls as N.L, an RDF's radiance does not: the share grows "
-      "without bound towards grazing light. Not reciprocal, so not the same as what an eye sees "
-      "(energy-rdf-seen); at normal incidence it is below 1";
+      "the arriving power falls as N.L, an RDF's radiance does not. So the share grows without bound "
+      "towards grazing light. An RDF is not reciprocal, so an eye sees something else (energy-rdf-seen)";
   return claim;
 }
 
 // ---- rows 5 and 6 normalise a distribution of normals, not light
 
 Claim distribution_as_rdf() {
-  Claim claim{"distribution-as-rdf", "table of coefficients, row 5",
-              "the energy of the NDF's coefficient used for reflected light: four times too much "
-              "in the limit",
-              ""};
+  Claim claim{
+      "distribution-as-rdf", "table of coefficients, row 5",
+      "the energy if the NDF's coefficient is used for reflected light. It tends to four times too "
+      "much",
+      ""};
   for (const Real n : {16.0L, 64.0L, 1024.0L})
     claim.measured.push_back(
         figure("energy",
                kRows[kNdf].cosine_column(n) * hemisphere_integral(kRows[kBlinn], Lobe::kCosine, n),
                4, at_exponent(n)));
   claim.definition = "row 5's coefficient for cos^n times row 3's integral, at normal incidence";
-  claim.reason = "the angle of H is half that of the reflected ray, its solid angle a quarter";
+  claim.reason = "the angle of H is half of the reflected ray's, so its solid angle is a quarter";
   return claim;
 }
 
@@ -226,7 +223,7 @@ Claim distribution_as_brdf() {
     }
   claim.definition =
       "reflected over arriving power at normal incidence, cos^n, f_r = D/4 (F = 1, G = (N.L)(N.V))";
-  claim.reason = "normals are normalised, not light: what the implicit geometry hides is lost";
+  claim.reason = "normals are normalised, not light. What the implicit geometry hides is lost";
   return claim;
 }
 

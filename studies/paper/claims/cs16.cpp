@@ -34,8 +34,7 @@ Claim cs16_largest_error() {
                            place(over_n.at, largest_excess(over_n.at, 1).at)),
                     vanishing("the same at n = 16, where both are one function", at_16, 1e-15)};
   claim.definition =
-      "absolute difference, which is a share of the peak; n real in 16..1024 (scanned at every "
-      "integer, then refined), x over the whole hemisphere";
+      "absolute difference, a share of the peak; n real in 16..1024, x over the hemisphere";
   claim.verdict = confirmed_if(rounds_to(over_n.value, 1.7e-2, 1e-3));
   return claim;
 }
@@ -49,12 +48,12 @@ Claim cs16_smallest_error() {
       vanishing("least cos^n - cs16, n = 16..1024", least, 1e-15),
       figure("exponent at which it is -9.7e-3", root(over_printed, Real(10), Real(12), 30), 3)};
   claim.definition =
-      "as for the largest; what is below 1e-15 is the rounding of long double, because the two "
-      "functions are equal at x = 0 and at n = 16";
+      "as for cs16-largest-error. Below 1e-15 is rounding: the two functions are equal at x = 0 and at n = "
+      "16";
   claim.verdict = confirmed_if(rounds_to(least, -9.7e-3, 1e-4));
   claim.reason =
-      "Bernoulli's inequality: with s = 1 - cos x, (1 - n s/16)^(16/n) <= 1 - s for n >= 16, so cs16 "
-      "never exceeds cos^n there. It does below 16, outside the paper's range";
+      "for n >= 16, (1 - n s/16)^(16/n) <= 1 - s with s = 1 - cos x (Bernoulli), so cs16 never exceeds "
+      "cos^n. It does below 16, outside the paper's range";
   return claim;
 }
 
@@ -69,10 +68,9 @@ Claim cs16_without_power() {
       figure("largest difference from cos^n", base.value, 3, place(base.at, worst(base.at).at)),
       figure("the same of its 16th power", power, 3)};
   claim.definition =
-      "absolute difference up to theta_cr, n = 16..1024. Confirmed if it is the 1.7e-2 that is printed for the "
-      "approximation";
+      "absolute difference up to theta_cr, n = 16..1024. Confirmed if it is the printed 1.7e-2";
   claim.verdict = confirmed_if(rounds_to(base.value, 1.7e-2, 1e-3));
-  claim.reason = "a misprint: the power 16 is missing, and eq. (1) has it";
+  claim.reason = "a misprint. The power 16 is missing; eq. (1) has it";
   return claim;
 }
 
@@ -88,12 +86,11 @@ Claim theta_cr_approximation() {
                     figure("exponent below which it is too small",
                            root([](Real n) { return ratio(n) - 1; }, Real(16), Real(64), 40), 3)};
   claim.definition =
-      "6/sqrt(n) / theta_cr - 1, n = 16..1024. The paper prints no figure; confirmed if within "
-      "10 %";
+      "6/sqrt(n) / theta_cr - 1, n = 16..1024. Confirmed if within 10 %; the paper prints no figure";
   claim.verdict = confirmed_if(above.value < 0.1L && below.value < 0.1L);
   claim.reason =
-      "theta_cr = 2 arcsin(sqrt(8/n)), which tends to sqrt(32/n) = 5.66/sqrt(n): 6 is 6.1 % too "
-      "large in the limit, and too small where the arcsine bends";
+      "theta_cr = 2 arcsin(sqrt(8/n)) tends to 5.66/sqrt(n). 6 is 6.1 % too large in the limit, and too "
+      "small for small n";
   return claim;
 }
 
@@ -107,13 +104,13 @@ Claim theta_cr_beyond() {
   claim.measured = {figure("largest value added, of a negative base", added, 2),
                     figure("largest value cut off", lost, 1)};
   claim.definition =
-      "the 16th power of the base at x = 6/sqrt(n): beyond theta_cr the base is negative and its "
-      "even power is not 0; where 6/sqrt(n) is the smaller, the lobe ends before it is 0. Confirmed if "
-      "both are below 1e-5, the last digit of the smallest error that the paper prints";
+      "the 16th power of the base at x = 6/sqrt(n). Beyond theta_cr the base is negative and its power is "
+      "not 0; before it, the lobe is cut off. Confirmed if both are below 1e-5, the last digit of the "
+      "paper's smallest error";
   claim.verdict = confirmed_if(added.value < 1e-5L && lost.value < 1e-5L);
   claim.reason =
-      "of the lobe itself. The integral of row 3, whose lobe of the half angle reaches twice as far, loses "
-      "0.4 % by the same cut (residual-blinn-phong-rdf)";
+      "this holds for the lobe. Row 3's lobe of the half angle reaches twice as far, and its integral loses"
+      " 0.4 % by the same cut (residual-blinn-phong-rdf)";
   return claim;
 }
 
@@ -129,8 +126,7 @@ Claim theta_cr_growth() {
   const Real first = exponent_at_right_angle(1);
   const Extreme latest = largest([&](Real n) { return reach(n, 1); }, first, kLastExponent, 992);
   Claim claim{"theta-cr-growth", "eq. (1)",
-              "beyond theta_cr the 16th power of the base grows rapidly, so that it must be cut",
-              ""};
+              "beyond theta_cr the 16th power of the base grows rapidly, so it must be cut", ""};
   claim.measured = {
       figure("the peak again at this times theta_cr, at the latest", latest, 3),
       figure("the same", reach(kLastExponent, 1), 3, "n = 1024"),
@@ -142,13 +138,12 @@ Claim theta_cr_growth() {
       figure("least exponent at which it is 1/255 of the peak again",
              exponent_at_right_angle(kVisible), 3)};
   claim.definition =
-      "(n/16 (cos x - 1) + 1)^16 without the cut, from theta_cr to a right angle. No figure is printed; "
-      "confirmed if it has reached the peak again before twice theta_cr, for every n of the paper's range "
-      "at which it does so within the hemisphere";
+      "(n/16 (cos x - 1) + 1)^16 without the cut, from theta_cr to a right angle. Confirmed if it reaches "
+      "the peak again before twice theta_cr, for every n at which it does so within the hemisphere; no "
+      "figure is printed";
   claim.verdict = confirmed_if(latest.value < 2);
   claim.reason =
-      "the base falls on past 0, and its power is even. Below n = 27 a display of 8 bits would not show it: the "
-      "hemisphere ends first";
+      "the base falls below 0, and its power is even. Below n = 27 an 8-bit display would not show it";
   return claim;
 }
 
@@ -177,10 +172,10 @@ Claim cs16_normalised() {
                     figure("Blinn-Phong (RDF), peak too bright by", blinn_peak, 3),
                     figure("Phong (RDF), flank too dark by, of the peak", phong_below, 3)};
   claim.definition =
-      "lobe times printed coefficient, over the peak of cos^n times its own; n = 16..1024";
+      "cs16 times its printed coefficient, over the peak of cos^n times its own; n = 16..1024";
   claim.reason =
-      "cs16 is the narrower lobe, so the coefficient that gives it the same energy is up to 17/16 of "
-      "the other: a highlight drawn with it differs by several times the 1.7e-2 of the bare lobes";
+      "cs16 is narrower, so its coefficient is up to 17/16 of the other. Normalised highlights differ by "
+      "several times the 1.7e-2 of the bare lobes";
   return claim;
 }
 
@@ -201,8 +196,8 @@ Claim cs16_tail() {
                            cs16_lobe(end, kN) / cosine_lobe(end, kN), 3, at_exponent(kN))};
   claim.definition = "the bare lobes at n = 1024, where they are farthest apart";
   claim.reason =
-      "the blooming zone is a little narrower and its rim much darker: the opposite of "
-      "Schlick's fault, and far smaller (schlick-tail)";
+      "the blooming zone is a little narrower and its rim much darker. Schlick's lobe errs the other way, "
+      "and far more (schlick-tail)";
   return claim;
 }
 

@@ -75,8 +75,7 @@ Real disagreement(Form form, Formula formula, Counts& counts) {
 }
 
 constexpr char kOperationDefinition[] =
-    "the formula computed with numbers that count what is done to them, from a given cos x and "
-    "constants of n made beforehand";
+    "operations are counted as the formula runs, from a given cos x and precomputed constants of n";
 
 }  // namespace
 
@@ -93,7 +92,7 @@ Claim cs16_operations() {
   claim.definition = kOperationDefinition;
   claim.verdict = confirmed_if(counts.products == 4 && counts.multiply_adds == 1 &&
                                counts.divisions == 0 && worst < 1e-14L);
-  claim.reason = "the cut at theta_cr is a comparison more, which the paper does not count";
+  claim.reason = "the cut at theta_cr needs one more comparison, which the paper does not count";
   return claim;
 }
 
@@ -136,14 +135,14 @@ Claim schlick_cost() {
       vanishing("largest difference of both from cos^n", worst, 1e-14)};
   claim.definition =
       std::string(kOperationDefinition) +
-      ". Phong's and Blinn's lobes are both cos^n, of other angles; vectors are not counted. No figure "
-      "is printed; confirmed if Schlick's needs neither logarithm nor exponential, and at every whole "
-      "n = 16..1024 at most half of the operations of squarings, a division counted as one";
+      ". Phong's and Blinn's lobes are both cos^n; vectors are not counted. Confirmed if Schlick's needs "
+      "neither logarithm nor exponential, and at every whole n = 16..1024 at most half of the operations of"
+      " squarings, with a division as one; no figure is printed";
   claim.verdict = confirmed_if(schlick_counts.functions() == 0 && function_counts.functions() > 0 &&
                                2 * schlick_counts.all() <= least && worst < 1e-14L);
   claim.reason =
-      "one of the two operations is a division, which processors take several times as long for as for a product: "
-      "where squarings are few, as at n = 16, little is left of it. docs/cost.md has times";
+      "one of the two operations is a division, several times as slow as a product. At n = 16, with few "
+      "squarings, little of the gain is left. docs/cost.md has times";
   return claim;
 }
 
@@ -164,7 +163,7 @@ Claim gauss_inverse_cosine() {
   claim.definition = kOperationDefinition;
   claim.verdict = confirmed_if(counts.inverse_cosines == 1 && worst < 1e-14L);
   claim.reason =
-      "true of exp(-n x^2/2); exp(-n (1 - cos x)), the limit of the paper's own family, needs none";
+      "true of exp(-n x^2/2). exp(-n (1 - cos x)), the limit of the paper's own family, needs none";
   return claim;
 }
 

@@ -54,12 +54,12 @@ Claim schlick_epicentre() {
       schlick_error("to half of the peak, of the peak", half_of_peak, Of::kPeak),
       schlick_error("anywhere, of the peak", hemisphere, Of::kPeak)};
   claim.definition =
-      "largest |Schlick - cos^n| / cos^n, n = 16..1024: the paper speaks of the relative error. It does not say where "
-      "the epicentre ends; here it does, as for `lobelia profile`, where cos^n is half of its peak";
+      "largest |Schlick - cos^n| / cos^n, n = 16..1024. The paper does not say where the epicentre ends; "
+      "here, as in `lobelia profile`, at half of the peak of cos^n";
   claim.verdict = confirmed_if(claim.measured[0].value <= 0.1);
   claim.reason =
-      "it holds with the epicentre as it ends at the inflection (schlick-epicentre-inflection). To half of the peak "
-      "it would hold of an error that is a share of the peak, which is not a relative one";
+      "it holds up to the inflection (schlick-epicentre-inflection). To half of the peak it holds only for "
+      "the error as a share of the peak";
   return claim;
 }
 
@@ -71,10 +71,10 @@ Claim schlick_epicentre_inflection() {
   claim.measured = {schlick_error("to the inflection, of the local value", inflection, Of::kLocal),
                     schlick_error("to the inflection, of the peak", inflection, Of::kPeak)};
   claim.definition =
-      "as for schlick-epicentre, but the epicentre ends where cos^n has its inflection, tan^2 x = 1/(n - 1): about "
-      "0.6 of the peak";
+      "as for schlick-epicentre, but the epicentre ends at the inflection of cos^n, tan^2 x = 1/(n - 1), "
+      "about 0.6 of the peak";
   claim.verdict = confirmed_if(claim.measured[0].value <= 0.1);
-  claim.reason = "by less than a tenth of a per cent: the figure may well have been found so";
+  claim.reason = "within a tenth of a per cent. The paper may have found the figure in this way";
   return claim;
 }
 
@@ -94,9 +94,9 @@ Claim schlick_tail() {
     add("energy over that of cos^n", schlick_integral(n) * (n + 1) / (2 * kPi));
   }
   claim.definition =
-      "reach: the angle where the lobe has fallen to 1/255 of its peak, the least that a display of "
-      "8 bits shows; energy: the integral of lobe(x) sin x. No figure is printed; confirmed if the "
-      "reach is more than half as long again";
+      "reach is the angle where the lobe has fallen to 1/255 of its peak, the least that an 8-bit display "
+      "shows; energy is the integral of lobe(x) sin x. Confirmed if the reach is more than 1.5 times as "
+      "long; no figure is printed";
   claim.verdict = confirmed_if(claim.measured[0].value > 1.5 && claim.measured[5].value > 1.5);
   claim.reason = "it falls as 1/(n x^2/2), cos^n as exp(-n x^2/2)";
   return claim;
@@ -119,11 +119,11 @@ Claim gauss_accuracy() {
                     figure("the same", times(kLastExponent), 3, "n = 1024")};
   claim.definition =
       "absolute difference, a share of the peak; the epicentre is where cos^n is at least half of it. "
-      "No figure is printed; confirmed if nowhere worse than the 1.7e-2 that the paper grants cs16";
+      "Confirmed if nowhere worse than cs16's 1.7e-2; no figure is printed";
   claim.verdict = confirmed_if(anywhere.value <= 1.7e-2L);
   claim.reason =
-      "it differs from cos^n by the factor exp(n x^4/12): of the local value, a tail at "
-      "small n is nearly twice too bright";
+      "it differs from cos^n by the factor exp(n x^4/12). At small n the tail is nearly twice as bright as "
+      "it should be";
   return claim;
 }
 
@@ -137,12 +137,12 @@ Claim gauss_angle() {
              "n = 16"),
       figure("the same with the angle of N and H", gauss_lobe(of_n_and_h, 16), 3, "n = 16")};
   claim.definition =
-      "the lobe for light at 45 degrees from the normal, seen from the mirror direction: a highlight has its peak "
-      "there. Confirmed if it is 1";
+      "the lobe for light at 45 degrees, seen from the mirror direction, where a highlight has its peak. "
+      "Confirmed if it is 1";
   claim.verdict = confirmed_if(claim.measured[0].value == 1);
   claim.reason =
-      "a misprint: N and H are meant. The angle of H and L is half of that of L and V, so that the lobe would be "
-      "largest where the eye is at the light, whatever the normal";
+      "a misprint for N and H. The angle of H and L is half of that of L and V, so the lobe would be "
+      "largest with the eye at the light, whatever the normal";
   return claim;
 }
 
@@ -162,12 +162,12 @@ Claim more_accurate_lobe() {
                     figure("of Schlick's", schlick, 3), figure("of the Gaussian", gauss, 3),
                     figure("exponent from which the Gaussian is nearer", crossing, 3)};
   claim.definition =
-      "absolute difference over the hemisphere, a share of the peak, n = 16..1024. The paper does not say by what "
-      "measure its models are more accurate; this is one reading, and the other more-accurate claims are the others. "
-      "Confirmed if cs16's is the smallest";
+      "absolute difference over the hemisphere, a share of the peak, n = 16..1024. Confirmed if cs16's is "
+      "the smallest. The paper does not say what more accurate means; the other more-accurate claims are "
+      "other readings";
   claim.verdict = confirmed_if(cs16.value < std::min(schlick.value, gauss.value));
   claim.reason =
-      "nearer than Schlick's by far; the Gaussian, which costs more, comes nearer as n grows";
+      "cs16 is far nearer than Schlick's lobe. The Gaussian, which costs more, is nearer for large n";
   return claim;
 }
 

@@ -56,8 +56,8 @@ void widen(Asymmetry& asymmetry, const Row& row) {
 
 constexpr char kModelsText[] = "text on the models";
 constexpr char kPairs[] =
-    "f_r(L, V) / f_r(V, L) - 1 over pairs of directions 5 to 85 degrees from the normal, both lobes, "
-    "n = 16 and 64, where f_r/coefficient is above 1e-9";
+    "f_r(L, V) / f_r(V, L) - 1 over pairs of directions 5 to 85 degrees from the normal, both lobes, n = 16"
+    " and 64, where f_r/coefficient exceeds 1e-9";
 
 }  // namespace
 
@@ -88,8 +88,7 @@ Claim reciprocity_of_rdfs() {
   claim.definition = std::string(kPairs) + "; as a BRDF an RDF is coefficient lobe / (N.L)";
   claim.verdict = confirmed_if(asymmetry.largest_ratio < 1 + 1e-12L);
   claim.reason =
-      "the lobe is symmetric, 1/(N.L) is not: the ratio is (N.V)/(N.L), without bound "
-      "towards grazing light";
+      "the lobe is symmetric, 1/(N.L) is not. The ratio is (N.V)/(N.L), without bound towards grazing light";
   return claim;
 }
 

@@ -145,7 +145,7 @@ TEST_F(Key, HasEveryVariableThatChangesAResult) {
 TEST_F(Key, IsExplainedAsARecordToo) {
   fake_povray();
   ASSERT_EQ(run().exit_code, 0);
-  const Json told = Json::parse(explain({"n16", "--json"}).output);
+  const Json told = Json::parse(explain({"n16", "--json", "-"}).output);
   EXPECT_EQ(told.at("kind"), "farm-explanation");
   ASSERT_EQ(told.at("jobs").size(), 4u);
   for (const Json& job : told.at("jobs")) {

@@ -161,16 +161,20 @@ TEST(Fused, AnUnlitSceneIsBlack) {
   EXPECT_EQ(difference(scene), "");
 }
 
-TEST(Fused, TracesOnlyWhereASphereCanBe) {
-  const Scene scene = one_sphere(1024, 1024);
-  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
-  const FusedRenderer fused(scene, plan);
-  std::vector<float> rgb(3 * 1024 * 1024);
-  fused.render_rows(0, 1024, rgb.data());
+TEST(Fused, TracesOnlyWhereASphereCanBeAndWhereItsHighlightReaches) {
+  Scene scene = one_sphere(1024, 1024);
+  const auto share = [&] {
+    const FusedRenderer fused(scene, make_plan(scene, EffectPolicy::kAsCalledFor));
+    std::vector<float> rgb(3 * 1024 * 1024);
+    fused.render_rows(0, 1024, rgb.data());
+    return double(fused.work().camera_rays) / (1024.0 * 1024);
+  };
+  scene.materials[0].highlight.lobe = *find_lobe("cs16");
+  EXPECT_LT(share(), 0.2);
   // The disc has pi/4 of the square around it, 0.816 of the picture wide; blocks add some.
-  const double share = double(fused.work().camera_rays) / (1024.0 * 1024);
-  EXPECT_GT(share, 0.523);
-  EXPECT_LT(share, 0.56);
+  scene.materials[0].diffuse_reflectance = {0.1, 0.1, 0.1};
+  EXPECT_GT(share(), 0.523);
+  EXPECT_LT(share(), 0.56);
 }
 
 }  // namespace

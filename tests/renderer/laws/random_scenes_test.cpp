@@ -1,5 +1,6 @@
 // Laws of the plan and of its pictures on scenes at random: what the plan leaves out would do nothing.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -254,6 +255,45 @@ TEST(RandomScenes, AreTheSameBitForBitByFusedKernelsAndInAnyNumberOfThreads) {
   expect_of_random_scenes(SceneKind::kExact, 300, law);
   EXPECT_GT(fused, 30);
   expect_of_random_scenes(SceneKind::kAny, 100, law);
+}
+
+/// What a record says of the render, but for its times.
+std::string figures(const RenderResult& r) {
+  return fmt::format("{} samples, error {:.17g}, stopped {}, rays {} {} {} {}, work {}", r.samples,
+                     r.error.value_or(-1), r.stop_reason, r.work.camera_rays, r.work.shadow_rays,
+                     r.work.mirror_rays, r.work.scattered_rays, fmt::join(r.work.of_effect, " "));
+}
+
+TEST(RandomScenes, AreTheSameBitForBitInBandsAsInOnePieceInAnyNumberOfThreads) {
+  int several_bands = 0, noisy = 0;
+  const auto law = [&](const Scene& random_one, Random& random) {
+    Scene scene = random_one;
+    scene.film.width = 1 + random.below(100);
+    scene.film.height = 1 + random.below(200);
+    RenderOptions options;
+    if (random.chance(0.2)) options.target_error = 0.3, options.max_samples = 8;
+    const RenderResult whole = render(scene, options);
+    options.threads = 1 + random.below(4);
+    options.band_pixels = 1 + random.below(10000);
+    Image rows(scene.film.width, scene.film.height);
+    int next = 0, bands = 0;
+    const RenderResult streamed = render(scene, options, [&](int y, int count, const float* rgb) {
+      if (y == next) std::copy_n(rgb, 3 * count * rows.width(), rows.pixel(0, y).data());
+      next = y == next ? y + count : -1;
+      ++bands;
+    });
+    several_bands += bands > 1;
+    noisy += streamed.error.has_value();
+    if (next != rows.height()) return std::string("a row is missing, or comes twice\n");
+    if (streamed.image.pixel_count() > 0) return std::string("the picture is held as well\n");
+    if (figures(streamed) != figures(whole))
+      return fmt::format("{} in bands,\n{} in one piece\n", figures(streamed), figures(whole));
+    return difference(whole.image, rows, "in bands");
+  };
+  expect_of_random_scenes(SceneKind::kExact, 200, law);
+  expect_of_random_scenes(SceneKind::kAny, 100, law);
+  EXPECT_GT(several_bands, 100);
+  EXPECT_GT(noisy, 20);
 }
 
 TEST(RandomScenes, AreFiniteAndNotNegative) {

@@ -8,6 +8,8 @@ const kMostZoom = 64;
 export class Camera {
   /** Of the picture in pixels. */
   size = { width: 1, height: 1 };
+  /** What is shown at first; undefined: the whole picture. */
+  home: Rectangle | undefined;
 
   constructor(private readonly stage: HTMLElement, private readonly choice: Choice,
               private readonly change: (changes: { x: string; y: string; z: string }) => void) {}
@@ -27,9 +29,11 @@ export class Camera {
 
   view(): Viewport {
     const at = this.rectangles()[0]!;
-    const zoom = this.choice.state.get('z') === '' ? this.fitZoom() : clamp(this.choice.state.number('z') * devicePixelRatio, this.fitZoom() / 4, kMostZoom * 4);
-    const x = this.choice.state.get('x') === '' ? this.size.width / 2 : this.choice.state.number('x');
-    const y = this.choice.state.get('y') === '' ? this.size.height / 2 : this.choice.state.number('y');
+    const z = this.choice.state.get('z'), whole = { x: 0, y: 0, ...this.size };
+    const box = z === '' ? this.home ?? whole : whole;
+    const zoom = z === '' || z === 'fit' ? Math.min(at.width / box.width, at.height / box.height) : clamp(this.choice.state.number('z') * devicePixelRatio, this.fitZoom() / 4, kMostZoom * 4);
+    const x = this.choice.state.get('x') === '' ? box.x + box.width / 2 : this.choice.state.number('x');
+    const y = this.choice.state.get('y') === '' ? box.y + box.height / 2 : this.choice.state.number('y');
     return { x: x - at.width / 2 / zoom, y: y - at.height / 2 / zoom, zoom };
   }
 
@@ -51,9 +55,8 @@ export class Camera {
   }
 
   moveTo(x: number, y: number, zoom: number): void {
-    this.change({
-      x: clamp(x, 0, this.size.width).toFixed(2), y: clamp(y, 0, this.size.height).toFixed(2), z: String(Number(zoom.toPrecision(5))),
-    });
+    const text = (value: number, most: number) => String(Number(clamp(value, 0, most).toFixed(2)));
+    this.change({ x: text(x, this.size.width), y: text(y, this.size.height), z: String(Number(zoom.toPrecision(5))) });
   }
 
   /** By pixels of the picture. */
@@ -62,7 +65,15 @@ export class Camera {
     this.moveTo(x + dx, y + dy, this.view().zoom / devicePixelRatio);
   }
 
-  fit(): void { this.change({ x: '', y: '', z: '' }); }
+  fit(): void { this.change({ x: '', y: '', z: this.home ? 'fit' : '' }); }
+
+  goHome(): void { this.change({ x: '', y: '', z: '' }); }
+
+  /** Whether the whole picture is shown. */
+  isWhole(): boolean {
+    const z = this.choice.state.get('z');
+    return z === 'fit' || (z === '' && !this.home);
+  }
 
   /** The picture's point under the pointer. */
   pointAt(event: { clientX: number; clientY: number }): { x: number; y: number } {

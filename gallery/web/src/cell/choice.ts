@@ -39,10 +39,16 @@ export class Choice {
     const named = this.data.engines.findIndex((e) => e.name === this.state.get(which) && e.picture);
     if (named >= 0) return named;
     // Ours, and another engine rather than our formula.
-    const others = shown.filter((i) => i !== shown[0]);
+    const rest = shown.filter((i) => i !== shown[0]), now = rest.filter((i) => !this.data.engines[i]!.beforeOf);
+    const others = now.length > 0 ? now : rest;
     // A report has the reference first, and the picture that is judged is seen from its side.
     if (this.data.isReport && others.length > 0) return which === 'a' ? others[0]! : shown[0]!;
     return (which === 'a' ? shown[0] : others.find((i) => this.data.engines[i]!.name !== 'analytic') ?? others[0]) ?? 0;
+  }
+
+  /** Each picture of an earlier run, and the same engine's of now. */
+  oldAgainstNew(): { a: string; b: string }[] {
+    return this.engines().flatMap((i) => { const { name, beforeOf } = this.data.engines[i]!; return beforeOf ? [{ a: name, b: beforeOf }] : []; });
   }
 
   mode(): (typeof kModes)[number]['value'] {

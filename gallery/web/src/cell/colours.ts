@@ -7,6 +7,9 @@ const kStops = {
   magma: ['000004', '180f3e', '451077', '721f81', '9f2f7f', 'cd4071', 'f1605d', 'fd9567', 'fec98d', 'fcfdbf'],
 } as const;
 
+/** Of what a pane shows. */
+export const kColours = { picture: 'viridis', difference: 'inferno', map: 'magma' } as const;
+
 type ColourMap = keyof typeof kStops;
 export const kStopCount = 10;
 

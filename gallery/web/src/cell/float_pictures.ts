@@ -2,7 +2,7 @@
 import { clamp, shortText } from '../lib/numbers';
 import type { CellPage } from '../records';
 import { loadFloatPicture, roundingAt, type FloatPicture } from './half_picture';
-import type { Measure } from './painter';
+import type { Measure, Rectangle } from './painter';
 
 export interface Worst { readonly value: number; readonly x: number; readonly y: number }
 
@@ -52,6 +52,23 @@ export class FloatPictures {
     const at = 3 * (y * picture.width + x) + c;
     const rounding = roundingAt(ours, ours.values[at]!) + (picture.fromOurs ? roundingAt(picture, picture.values[at]!) : 0);
     return shortText(value, clamp(1 + Math.floor(Math.log10(Math.abs(value) / rounding)), 1, 4));
+  }
+
+  /** A box with some room around what has 5 % of our picture's peak; undefined if that is most of the picture. */
+  highlight(): Rectangle | undefined {
+    const ours = this.all.get(0);
+    if (!ours) return undefined;
+    const { width, height } = ours, least = 0.05 * this.largestOf(0, 0, 'value');
+    let left = width, top = height, right = -1, bottom = -1;
+    for (let i = 0; i < width * height; ++i) {
+      if (!(Math.max(ours.values[3 * i]!, ours.values[3 * i + 1]!, ours.values[3 * i + 2]!) >= least)) continue;
+      const x = i % width, y = Math.floor(i / width);
+      left = Math.min(left, x); right = Math.max(right, x);
+      top = Math.min(top, y); bottom = Math.max(bottom, y);
+    }
+    const side = 1.6 * Math.max(right - left + 1, bottom - top + 1, 8);
+    if (right < 0 || side >= 0.8 * Math.min(width, height)) return undefined;
+    return { x: (left + right + 1 - side) / 2, y: (top + bottom + 1 - side) / 2, width: side, height: side };
   }
 
   differenceAt(a: number, b: number, x: number, y: number): [number, number, number] | undefined {

@@ -1,5 +1,5 @@
 // Paints float pictures with WebGL 2, without filtering.
-import { kStopCount, stopsOf } from './colours';
+import { kColours, kStopCount, stopsOf } from './colours';
 import type { FloatPicture } from './half_picture';
 import type { Look, Painter, Pane } from './painter';
 
@@ -73,8 +73,6 @@ void main() {
     shown = vec4(clamp(size3, 0.0, 1.0), 1.0);
   }
 }`;
-
-const kColours = { picture: 'viridis', difference: 'inferno', map: 'magma' } as const;
 
 export class GlPainter implements Painter {
   private readonly program: WebGLProgram;

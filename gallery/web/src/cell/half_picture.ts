@@ -1,16 +1,11 @@
 // Reads the pictures that gallery/half_picture.cpp and float_pictures.cpp write.
 import { load } from '../lib/data';
+import { inflated } from '../lib/inflate';
 import type { PackedPicture } from '../records';
 
 export interface FloatPicture extends Omit<PackedPicture, 'planes' | 'predicted'> {
   /** Three values a pixel, row 0 on top; with `fromOurs` their difference from ours. */
   readonly values: Float32Array;
-}
-
-async function inflated(base64: string): Promise<Uint8Array> {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 /** The values of all half floats from +0 on, by their bits. */

@@ -21,8 +21,8 @@ function countsOf(pictures: FloatPictures, engine: number, width: number, height
 }
 
 export class Histogram {
-  private readonly chart = new Chart('Pixels by brightness', 220);
   private readonly caption = h('figcaption', {}, '');
+  private readonly chart = new Chart('Pixels by brightness', 220, () => ({ name: 'histogram', caption: (this.caption.textContent ?? '').replace(/\.$/, '') }));
   private readonly box = h('details', { class: 'histogram' }, h('summary', {}, 'Histogram'), this.chart.element, this.caption);
   readonly element = h('figure', { hidden: true }, this.box);
   private shown = '';

@@ -36,7 +36,7 @@ export function legendOf(viewer: Viewer, a: number, b: number): (HTMLElement | s
 /** Why the difference of values is shown in place of a chosen map. */
 function missingMap(viewer: Viewer): HTMLElement | undefined {
   const asked = viewer.choice.mapAsked(), there = asked && viewer.choice.comparison(viewer.choice.engine('a'), viewer.choice.engine('b'))?.maps.some((m) => m.id === asked.value);
-  return !asked ? undefined : h('span', {}, there ? viewer.isFloat ? `${asked.label} is on its way` : `${asked.label} needs float pictures and WebGL 2`
+  return !asked ? undefined : h('span', {}, there ? viewer.isFloat ? `${asked.label} is on its way` : `${asked.label} needs float pictures`
     : `|a − b|: ${asked.label} was made of ours and each engine`);
 }
 

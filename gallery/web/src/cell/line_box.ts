@@ -15,8 +15,8 @@ function pixelsUnder({ x0, y0, x1, y1 }: NonNullable<ReturnType<Choice['line']>>
 }
 
 export class LineBox {
-  private readonly chart = new Chart('Values along the line', 300);
   private readonly caption = h('figcaption', {}, '');
+  private readonly chart = new Chart('Values along the line', 300, () => ({ name: 'line', caption: (this.caption.textContent ?? '').replace(/\.$/, '') }));
   readonly element = h('figure', { class: 'line-box', hidden: true }, this.caption, this.chart.element);
   private shown = '';
 

@@ -1,4 +1,5 @@
-// What a stage shows. gl_painter.ts paints it from float pictures, png_painter.ts from 8-bit pictures.
+// What a stage shows. gl_painter.ts paints it from float pictures, cpu_painter.ts does without WebGL 2, and
+// png_painter.ts paints 8-bit pictures.
 
 import type { FloatPicture } from './half_picture';
 

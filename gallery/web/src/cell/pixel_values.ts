@@ -26,9 +26,11 @@ export class PixelValues {
     const row = (name: string, value: readonly number[] | undefined, text: (value: number, c: number) => string, chosen: string): HTMLElement =>
       h('tr', { class: chosen }, h('th', { scope: 'row' }, name),
         ...[0, 1, 2].map((c) => h('td', {}, value ? text(value[c]!, c) : '…')));
-    const rows = viewer.choice.engines().filter((i) => viewer.choice.data.engines[i]!.floatScript).map((i) => {
+    const { engines } = viewer.choice.data;
+    // An earlier picture is loaded only if it is looked at.
+    const rows = viewer.choice.engines().filter((i) => engines[i]!.floatScript && (!engines[i]!.beforeOf || i === a || i === b)).map((i) => {
       void viewer.pictures.need(i);
-      return row(viewer.choice.data.engines[i]!.shortTitle, viewer.pictures.valueAt(i, x, y), (value, c) => viewer.pictures.valueText(i, x, y, c, value), i === a || i === b ? 'chosen' : '');
+      return row(engines[i]!.shortTitle, viewer.pictures.valueAt(i, x, y), (value, c) => viewer.pictures.valueText(i, x, y, c, value), i === a || i === b ? 'chosen' : '');
     });
     rows.push(row('Difference', viewer.pictures.differenceAt(a, b, x, y), (value) => shortText(value), 'sum'));
     const map = viewer.mapOf(a, b), mapped = map && valueOfMap(map, x, y);

@@ -1,4 +1,4 @@
-// Without float pictures or WebGL 2: the 8-bit pictures, at their only exposure.
+// Without float pictures: the 8-bit pictures, at their only exposure.
 import { pictureAt } from '../lib/single_file';
 import type { CellPage, ShownPicture } from '../records';
 import type { Painter, Pane, Viewport } from './painter';

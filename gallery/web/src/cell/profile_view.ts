@@ -33,7 +33,9 @@ export function profileView(data: CellPage, state: HashState<'scale'>): HTMLElem
   const all = curves(data, profile);
   const formula = all.find((s) => s.style === 0);
   const choices = kScales.filter((s) => formula || (s.value !== 'ratio' && s.value !== 'error'));
-  const chart = new Chart('The highlight as a curve', 380);
+  const chart = new Chart('The highlight as a curve', 380, () => ({
+    name: `profile-${state.get('scale')}`, caption: `${data.label || data.id}: ${all.map((s) => s.name).join(', ')}`,
+  }));
   const box = select('Show', choices, 'linear', (value) => { state.set({ scale: value }); draw(); }, 'profile-scale');
 
   const limit = Math.max(0, ...profile.zones.map((z) => z.to)) * 1.25 || 180;

@@ -1,15 +1,21 @@
 // Compares two pictures of a cell: with a divider, flipped, side by side, or their difference. Shows the values under the
 // cursor and along a line.
 import { announce, button, h, select, svg } from '../lib/dom';
+import { figureButton } from '../lib/figure';
+import { enlargement } from '../lib/figure_svg';
 import { clamp, numberText, toNumber } from '../lib/numbers';
 import type { CellPage } from '../records';
 import { Camera } from './camera';
 import { Choice, kMeasures, kModes, kMostGain, kStops, type ViewerState } from './choice';
+import { CpuPainter } from './cpu_painter';
+import { figureOf } from './figure';
+import { Flipper } from './flipper';
 import { FloatPictures, type Worst } from './float_pictures';
 import { GlPainter } from './gl_painter';
 import { legendOf } from './legend';
 import { Histogram } from './histogram';
 import { LineBox } from './line_box';
+import { MapHistogram } from './map_histogram';
 import { DifferenceMaps, type LoadedMap } from './maps';
 import { overlayOf } from './overlay';
 import type { Content, Look, Painter, Pane } from './painter';
@@ -38,23 +44,25 @@ export class Viewer {
   private readonly measure: ReturnType<typeof select>;
   private readonly lineBox = new LineBox();
   private readonly histogram = new Histogram(() => this.schedule());
+  private readonly mapHistogram = new MapHistogram();
   private readonly outline = new RegionOutline(() => this.schedule());
   private readonly region = h('input', { type: 'checkbox', id: 'region' });
   private readonly lineButton: HTMLButtonElement;
 
   private readonly maps = new DifferenceMaps(() => this.schedule(), (words) => this.tell(words));
   private painter: Painter;
-  /** WebGL 2 paints float pictures. */
+  /** Float pictures are painted. */
   isFloat = false;
   private isWaiting: boolean;  // for float pictures
   readonly choice: Choice;
   readonly camera: Camera;
+  readonly flipper = new Flipper(this);
   readonly pictures: FloatPictures;
   cursor: { x: number; y: number } | undefined;
   drawing = false;  // a line
   private pending = false;
 
-  constructor(private readonly data: CellPage, private readonly state: ViewerState) {
+  constructor(readonly data: CellPage, private readonly state: ViewerState) {
     this.choice = new Choice(data, state);
     this.pictures = new FloatPictures(data, () => { this.useFloats(); this.schedule(); },
       (engine, why) => this.lacks(engine, why));
@@ -73,7 +81,7 @@ export class Viewer {
     this.region.addEventListener('change', () => this.change({ region: this.region.checked ? 'on' : 'off' }));
     this.divider.addEventListener('input', () => this.change({ split: this.divider.value }));
     for (const mode of kModes)
-      this.modes.append(button(mode.label, () => this.change({ mode: mode.value }),
+      this.modes.append(button(mode.label, () => this.setMode(mode.value),
         { 'data-mode': mode.value, 'aria-keyshortcuts': mode.key, title: `${mode.label} (${mode.key})` }));
     this.lineButton = button('Draw a line', () => this.startLine(), { 'aria-keyshortcuts': 'p', title: 'Draw a line across the picture (p)', 'aria-pressed': 'false' });
     this.stage = h('div', {
@@ -90,7 +98,9 @@ export class Viewer {
           h('div', { class: 'controls' }, this.pick.a.element,
             button('⇄', () => this.exchange(),
               { 'aria-label': 'Exchange the two', title: 'Exchange the two (x)', 'aria-keyshortcuts': 'x' }),
-            this.pick.b.element, this.modes),
+            this.pick.b.element,
+            ...(this.choice.oldAgainstNew().length > 0 ? [button('Old against new', () => this.showOldAgainstNew(),
+              { title: 'The earlier run’s picture beside this one’s; again for the next engine (b)', 'aria-keyshortcuts': 'b' })] : []), this.modes, this.flipper.button, figureButton('what the viewer shows', () => figureOf(this))),
           this.stage, this.divider, this.legend, this.message),
         h('div', { class: 'side-panel' },
           h('div', { class: 'controls' },
@@ -101,15 +111,17 @@ export class Viewer {
           h('div', { class: 'controls', role: 'group', 'aria-label': 'Zoom' },
             button('−', () => this.camera.zoomBy(0.5), { 'aria-label': 'Zoom out' }),
             button('+', () => this.camera.zoomBy(2), { 'aria-label': 'Zoom in' }),
-            button('Fit', () => this.camera.fit()), button('1 : 1', () => this.camera.zoomTo(1)),
-            button('Worst pixel', () => this.goToWorst(), { title: 'Where the two differ most (w)', 'aria-keyshortcuts': 'w' })),
+            button('Fit', () => this.camera.fit()),
+            button('Highlight', () => this.camera.goHome(), { title: 'Back to the highlight (h)', 'aria-keyshortcuts': 'h' }), button('1 : 1', () => this.camera.zoomTo(1)),
+            button('Worst pixel', () => this.goToWorst(), { title: 'Where the two differ most (w)', 'aria-keyshortcuts': 'w' }),
+            button('Fullscreen', () => this.fill(), { title: 'The pictures alone (m)', 'aria-keyshortcuts': 'm' })),
           h('div', { class: 'controls', role: 'group', 'aria-label': 'A line across the picture' },
             this.lineButton,
             button('Row', () => this.lineThrough(true), { title: 'The row of the cursor' }),
             button('Column', () => this.lineThrough(false), { title: 'The column of the cursor' }),
             button('None', () => this.change({ line: '' }), { title: 'No line' })),
-          this.values.element,
-          keysHelp())),
+          this.values.element, this.mapHistogram.element,
+          keysHelp(this.choice.oldAgainstNew().length > 0))),
       this.lineBox.element, this.histogram.element);
 
     this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
@@ -120,9 +132,40 @@ export class Viewer {
     this.refresh();
   }
 
+  setMode(value: string): void {
+    this.change({ mode: value });
+    announce(kModes.find((mode) => mode.value === value)?.label ?? '');
+  }
+
+  /** The pictures fill the screen, or no longer do. */
+  fill(): void {
+    const column = this.stage.parentElement;
+    if (document.fullscreenElement) void document.exitFullscreen();
+    else column?.requestFullscreen().catch(() => this.tell('This browser does not let a page fill the screen.'));
+  }
+
+  /** Another picture as the second one. */
+  nextPicture(by: 1 | -1): void {
+    const all = this.choice.engines(), at = all.indexOf(this.choice.engine('b'));
+    const next = this.data.engines[all[(at + by + all.length) % all.length]!]!;
+    this.change({ b: next.name });
+    announce(next.title);
+  }
+
   exchange(): void {
     const name = (which: 'a' | 'b'): string => this.data.engines[this.choice.engine(which)]!.name;
     this.change({ a: name('b'), b: name('a') });
+  }
+
+  /** Of the chosen engine if it has both; after that of the next. */
+  showOldAgainstNew(): void {
+    const pairs = this.choice.oldAgainstNew(), name = (which: 'a' | 'b'): string => this.data.engines[this.choice.engine(which)]!.name;
+    const shown = pairs.findIndex((p) => p.a === name('a') && p.b === name('b'));
+    const chosen = pairs.find((p) => p.b === name('b')) ?? pairs.find((p) => p.b === name('a'));
+    const next = shown >= 0 ? pairs[(shown + 1) % pairs.length] : chosen ?? pairs[0];
+    if (!next) return;
+    this.change(next);
+    announce(`${this.data.engines.find((e) => e.name === next.b)!.title}, before and now`);
   }
 
   /** The map that is asked for, if these two have it and it is loaded. */
@@ -157,7 +200,7 @@ export class Viewer {
     const stops = numberText(Math.round(100 * chosen) / 100, 5);
     this.exposureName.textContent = mode === 'diff' ? `Gain of the difference ${stops} stops` : `Exposure ${stops} stops`;
     // A finger scrolls the page, unless the picture is enlarged or a line is drawn.
-    this.stage.style.touchAction = this.state.get('z') === '' && !this.drawing ? 'pan-y pinch-zoom' : 'none';
+    this.stage.style.touchAction = this.camera.isWhole() && !this.drawing ? 'pan-y' : 'none';
     for (const which of [a, b, 0]) void this.pictures.need(which);
     this.schedule();
   }
@@ -166,23 +209,30 @@ export class Viewer {
     const ours = this.pictures.all.get(0);
     if (!ours) return;
     if (!this.isFloat) {
-      const canvas = h('canvas', { 'aria-hidden': 'true' });
-      const gl = canvas.getContext('webgl2', { antialias: false, depth: false, preserveDrawingBuffer: true });
-      if (gl) {
-        try {
-          this.painter = new GlPainter(canvas, gl, this.pictures.all);
-          this.canvas.replaceWith(canvas);
-          Object.assign(this, { canvas });
-          this.isFloat = true;
-        } catch {
-          // The message below says so.
-        }
-      }
-      this.isWaiting = this.isFloat;
-      if (!this.isFloat) this.tell('This browser has no WebGL 2: pictures are shown as 8-bit files, without exposure and false colour.');
+      const { canvas, painter } = this.floatPainter();
+      this.painter = painter;
+      this.canvas.replaceWith(canvas);
+      Object.assign(this, { canvas });
+      this.isFloat = true;
       this.camera.size = ours;
+      this.camera.home = this.pictures.highlight();
     }
     this.stage.dataset['ready'] = String(this.pictures.all.size);
+  }
+
+  private floatPainter(): { canvas: HTMLCanvasElement; painter: Painter } {
+    const canvas = h('canvas', { 'aria-hidden': 'true' });
+    const gl = canvas.getContext('webgl2', { antialias: false, depth: false, preserveDrawingBuffer: true });
+    if (gl) {
+      try {
+        return { canvas, painter: new GlPainter(canvas, gl, this.pictures.all) };
+      } catch {
+        // The message below says so.
+      }
+    }
+    this.tell('Painted by the processor, because this browser has no WebGL 2.');
+    const plain = h('canvas', { 'aria-hidden': 'true' });
+    return { canvas: plain, painter: new CpuPainter(plain, this.pictures.all) };
   }
 
   private tell(words: string): void { this.message.textContent = words; }
@@ -211,15 +261,15 @@ export class Viewer {
     const worst = this.worstPixel(this.choice.engine('a'), this.choice.engine('b'));
     if (!worst) return;
     this.setCursor(worst.x, worst.y, true);
-    if (this.state.get('z') !== '') this.change({ x: String(worst.x + 0.5), y: String(worst.y + 0.5) });
+    if (!this.camera.isWhole()) this.camera.moveTo(worst.x + 0.5, worst.y + 0.5, this.camera.view().zoom / devicePixelRatio);
     announce(`Largest difference at pixel ${worst.x}, ${worst.y}: ${numberText(worst.value)}`);
   }
 
   /** The difference that is white. */
   white(a: number, b: number): number {
     const map = this.mapOf(a, b);
-    // Differences too small to notice stay dark.
-    if (map) return Math.max(1, map.worst.value) / 2 ** this.choice.gain();
+    // A scale of its own: a colour means the same on every page, and differences too small to notice stay dark.
+    if (map) return map.top / 2 ** this.choice.gain();
     const measure = this.choice.measure(), whiteAt = toNumber(this.choice.comparison(a, b)?.whiteAt);
     const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.pictures.largestOf(a, b, measure) : 1;
     return base / 2 ** this.choice.gain();
@@ -231,12 +281,13 @@ export class Viewer {
     requestAnimationFrame(() => { this.pending = false; this.paint(); });
   }
 
-  private paint(): void {
-    const panes = this.camera.rectangles(), view = this.camera.view(), mode = this.choice.mode();
+  /** The panes of the stage, and their width and height together; `times` larger. */
+  private panes(times: number): { list: Pane[]; width: number; height: number } {
+    const panes = this.camera.rectangles().map((r) => ({ x: r.x * times, y: r.y * times, width: r.width * times, height: r.height * times }));
+    const shown = this.camera.view(), view = { ...shown, zoom: shown.zoom * times }, mode = this.choice.mode();
     const a = this.choice.engine('a'), b = this.choice.engine('b'), all = panes[0]!;
     const picture = (engine: number): Content => ({ kind: 'picture', engine });
     const list: Pane[] = [];
-    const isFlipped = mode === 'flip' && this.state.get('shown') === 'b';
     if (mode === 'slide') {
       const left = Math.round(all.width * clamp(this.state.number('split'), 0, 100) / 100);
       list.push({ at: { ...all, width: left }, view, content: picture(a) },
@@ -244,14 +295,31 @@ export class Viewer {
     } else if (mode === 'side') {
       list.push({ at: panes[0]!, view, content: picture(a) }, { at: panes[1]!, view, content: picture(b) });
     } else if (mode === 'flip') {
-      list.push({ at: all, view, content: picture(isFlipped ? b : a) });
+      list.push({ at: all, view, content: picture(this.isFlipped() ? b : a) });
     } else {
       const map = this.mapOf(a, b), white = this.white(a, b);
       list.push({ at: all, view, content: map ? { kind: 'map', picture: map.picture, white } : { kind: 'difference', a, b, measure: this.choice.measure(), white } });
     }
-    const width = mode === 'side' ? panes[1]!.x + panes[1]!.width : all.width;
-    this.painter.paint(width, all.height, list, this.look(a, b));
-    this.showTags(mode, a, b, isFlipped);
+    return { list, width: mode === 'side' ? panes[1]!.x + panes[1]!.width : all.width, height: all.height };
+  }
+
+  private isFlipped(): boolean { return this.choice.mode() === 'flip' && this.state.get('shown') === 'b'; }
+
+  /** What the stage shows, painted anew as large as a figure is. */
+  painted(): { picture: HTMLCanvasElement; overlay: Element[]; overlayWidth: number } {
+    const times = enlargement(this.panes(1).width), { list, width, height } = this.panes(times);
+    this.painter.paint(width, height, list, this.look(this.choice.engine('a'), this.choice.engine('b')));
+    const picture = h('canvas', { width, height });
+    picture.getContext('2d')?.drawImage(this.canvas, 0, 0);
+    this.paint();
+    return { picture, overlay: [...this.overlay.children].filter((e) => !e.classList.contains('pixel')), overlayWidth: this.overlay.clientWidth || width };
+  }
+
+  private paint(): void {
+    const panes = this.camera.rectangles(), view = this.camera.view(), mode = this.choice.mode();
+    const a = this.choice.engine('a'), b = this.choice.engine('b'), { list, width, height } = this.panes(1);
+    this.painter.paint(width, height, list, this.look(a, b));
+    this.showTags(mode, a, b, this.isFlipped());
     this.legend.replaceChildren(...legendOf(this, a, b));
     this.values.show(this, a, b);
     const region = this.choice.showsRegion() ? this.choice.comparison(a, b)?.region : undefined;
@@ -259,6 +327,7 @@ export class Viewer {
       (transform) => (region ? this.outline.drawn(region, transform) : [])));
     this.lineBox.show(this, a, b);
     this.histogram.show(this, a, b);
+    this.mapHistogram.show(this, a, b);
   }
 
   look(a: number, b: number): Look {
@@ -308,10 +377,11 @@ export class Viewer {
   }
 }
 
-function keysHelp(): HTMLElement {
+function keysHelp(hasBefore: boolean): HTMLElement {
   const keys: readonly (readonly [string, string])[] = [
-    ['1 … 9', 'first picture; with Shift the second'], ['f', 'flip between the two'], ['l s d', 'divider, side by side, difference'],
-    ['x', 'exchange the two'], ['e E', 'brighter, darker'], ['c', 'false colour'], ['+ − 0', 'zoom in, out, fit'], ['w', 'where the two differ most'], ['p', 'draw a line'],
+    ['1 … 9', 'first picture; with Shift the second'], ['f', 'flip between the two: a click does it too, and a press shows the other while it lasts'], ['t', 'blink: the two in turn, by a timer'], ['l s d', 'divider, side by side, difference'],
+    ['x', 'exchange the two'], ...(hasBefore ? [['b', 'old against new'] as const] : []), ['e E', 'brighter, darker'], ['c', 'false colour'], ['+ − 0 h', 'zoom in, out, fit, the highlight'], ['w', 'where the two differ most'], ['p', 'draw a line'],
+    ['m', 'fullscreen'], [', .', 'previous, next picture as the second'], ['j k', 'next, previous cell along the last axis'],
   ];
   return h('details', { class: 'keys' }, h('summary', {}, 'Keys'),
     h('dl', {}, ...keys.map(([key, what]) => h('div', {}, h('dt', {}, h('kbd', {}, key)), h('dd', {}, what)))));

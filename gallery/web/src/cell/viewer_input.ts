@@ -1,22 +1,51 @@
 // Pointer and keys of a cell's viewer.
 import { announce, isTyping } from '../lib/dom';
 import { clamp, numberText } from '../lib/numbers';
+import { kHold } from './flipper';
 import type { Viewer } from './viewer';
+
+const kStill = 4;  // pixels of the page that a click may move
 
 export function listenToPointer(viewer: Viewer): void {
   const { stage, camera, choice } = viewer;
   let held: { x: number; y: number; kind: 'pan' | 'line' | 'split' } | undefined;
+  let still: { x: number; y: number; timer: number } | undefined;  // a press in flip mode that has not moved
+  const fingers = new Map<number, PointerEvent>();
+  const letGo = (): boolean => {
+    if (!still) return false;
+    window.clearTimeout(still.timer);
+    still = undefined;
+    return true;
+  };
+  /** Two fingers keep their points of the picture. */
+  const pinch = (event: PointerEvent): void => {
+    const other = [...fingers.values()].find((one) => one.pointerId !== event.pointerId)!, before = fingers.get(event.pointerId)!;
+    const distance = (to: PointerEvent) => Math.max(1, Math.hypot(to.clientX - other.clientX, to.clientY - other.clientY));
+    camera.zoomBy(distance(event) / distance(before), camera.pointAt(other));
+  };
   const isAtDivider = (event: PointerEvent): boolean => {
     const box = stage.getBoundingClientRect();
     return choice.mode() === 'slide' && Math.abs(event.clientX - box.left - box.width * choice.state.number('split') / 100) < 12;
   };
   stage.addEventListener('pointerdown', (event) => {
     if (event.button !== 0) return;
+    fingers.set(event.pointerId, event);
+    if (fingers.size === 2) {
+      letGo();
+      held = undefined;
+      return stage.setPointerCapture(event.pointerId);
+    }
     const point = camera.pointAt(event);
     held = { ...point, kind: viewer.drawing ? 'line' : isAtDivider(event) ? 'split' : 'pan' };
     stage.setPointerCapture(event.pointerId);
+    if (choice.mode() === 'flip' && held.kind === 'pan')
+      still = { x: event.clientX, y: event.clientY, timer: window.setTimeout(() => { still = undefined; viewer.flipper.peek(true); }, kHold) };
   });
   stage.addEventListener('pointermove', (event) => {
+    if (fingers.size === 2) pinch(event);
+    if (fingers.has(event.pointerId)) fingers.set(event.pointerId, event);
+    if (fingers.size === 2) return;
+    if (still && Math.hypot(event.clientX - still.x, event.clientY - still.y) > kStill) letGo();
     const point = camera.pointAt(event);
     viewer.setCursor(point.x, point.y);
     stage.classList.toggle('at-divider', held?.kind === 'split' || (!held && isAtDivider(event)));
@@ -30,7 +59,10 @@ export function listenToPointer(viewer: Viewer): void {
       camera.moveBy(held.x - point.x, held.y - point.y);
     }
   });
-  const release = (): void => {
+  const release = (event: PointerEvent): void => {
+    fingers.delete(event.pointerId);
+    if (letGo() && event.type === 'pointerup') viewer.flipper.flip();
+    viewer.flipper.peek(false);
     if (held?.kind === 'line') viewer.startLine();
     else if (held?.kind === 'pan' && viewer.cursor) viewer.setCursor(viewer.cursor.x, viewer.cursor.y, true);
     held = undefined;
@@ -72,6 +104,8 @@ function moveByKey(viewer: Viewer, event: KeyboardEvent): void {
 function actByKey(viewer: Viewer, event: KeyboardEvent): void {
   const { camera, choice } = viewer;
   if (isTyping(event)) return;
+  const cell = event.key === 'j' ? 'next' : event.key === 'k' ? 'prev' : undefined;
+  if (cell) return [...document.querySelectorAll<HTMLAnchorElement>(`nav.axes a[rel=${cell}]`)].at(-1)?.click();
   const digit = /^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1];
   const picked = digit ? choice.data.engines[Number(digit) - 1] : undefined;
   if (picked?.picture) {
@@ -87,13 +121,14 @@ function actByKey(viewer: Viewer, event: KeyboardEvent): void {
     setStops(stops());  // which is within the limits
   };
   const acts: Record<string, () => void> = {
-    f: () => viewer.change({ mode: 'flip', shown: choice.mode() === 'flip' && choice.state.get('shown') === 'a' ? 'b' : 'a' }),
-    l: () => viewer.change({ mode: 'slide' }), s: () => viewer.change({ mode: 'side' }), d: () => viewer.change({ mode: 'diff' }),
-    x: () => viewer.exchange(),
+    f: () => viewer.flipper.flip(), t: () => viewer.flipper.blink(), m: () => viewer.fill(),
+    l: () => viewer.setMode('slide'), s: () => viewer.setMode('side'), d: () => viewer.setMode('diff'),
+    ',': () => viewer.nextPicture(-1), '.': () => viewer.nextPicture(1),
+    x: () => viewer.exchange(), b: () => viewer.showOldAgainstNew(),
     e: () => brighten(0.5), E: () => brighten(-0.5),
-    Escape: () => { if (viewer.drawing) viewer.startLine(); },
+    Escape: () => { viewer.flipper.stop(); if (viewer.drawing) viewer.startLine(); },
     c: () => viewer.change({ colour: choice.state.get('colour') === 'false' ? '' : 'false' }),
-    '+': () => camera.zoomBy(2), '=': () => camera.zoomBy(2), '-': () => camera.zoomBy(0.5), '0': () => camera.fit(),
+    '+': () => camera.zoomBy(2), '=': () => camera.zoomBy(2), '-': () => camera.zoomBy(0.5), '0': () => camera.fit(), h: () => camera.goHome(),
     p: () => viewer.startLine(), w: () => viewer.goToWorst(),
   };
   const act = Object.hasOwn(acts, event.key) ? acts[event.key] : undefined;

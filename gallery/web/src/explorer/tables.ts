@@ -2,7 +2,7 @@
 // formula of a lobe or a model.
 import type { HighlightTable, HighlightTables, LobeTable } from '../records';
 
-interface Curve { readonly x: number[]; readonly y: number[] }
+export interface Curve { readonly x: number[]; readonly y: number[] }
 
 const kDegree = Math.PI / 180, kFiner = 4;
 

@@ -1,7 +1,9 @@
 // A line chart that shows the values under the pointer, or at the arrow keys.
 import type { ChartAxis, ChartBand } from '../records';
 import { h, svg } from './dom';
-import { clamp, numberText } from './numbers';
+import { figureButton, type FigureSource } from './figure';
+import { fileName } from './figure_text';
+import { clamp, numberText, powerText } from './numbers';
 
 export interface Series {
   readonly name: string;
@@ -16,12 +18,18 @@ interface ChartContent {
   readonly y: ChartAxis;
   readonly series: readonly Series[];
   readonly bands?: readonly ChartBand[];
+  /** 0 has a place below a logarithmic y axis. */
+  readonly zero?: boolean;
   /** A value with a line of its own, such as 1 of a ratio. */
   readonly level?: number | undefined;
+  /** Each point is a bar, from the middle to the next ones. */
+  readonly bars?: boolean;
+  /** Places on the x axis with a name each. */
+  readonly marks?: readonly { readonly at: number; readonly name: string }[];
 }
 
 let charts = 0;
-const kWidth = 900, kLeft = 76, kRight = 16, kTop = 20, kBottom = 44;
+const kMostWidth = 900, kLeastWidth = 320, kLeft = 76, kRight = 24, kTop = 20, kBottom = 44;
 const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
 
 /** Round numbers from `from` to `to`, about `count` of them; decades on a logarithmic axis. */
@@ -60,24 +68,48 @@ export class Chart {
   private at: number | undefined;
   private readonly rule = svg('g', { class: 'rule' });
   private readonly clip = `chart-${++charts}-inside`;
+  private width = kMostWidth;  // what the page has for it, so that letters keep their size
 
-  constructor(private readonly title: string, private readonly height: number) {
+  /** `about` tells what the chart shows now, for its figure: a part of the file's name, and the caption. */
+  constructor(private readonly title: string, private readonly height: number,
+              private readonly about: () => { readonly name?: string; readonly caption?: string } = () => ({})) {
     this.drawing = svg('svg', {
-      class: 'chart interactive', viewBox: `0 0 ${kWidth} ${height}`, tabindex: 0, role: 'img', 'aria-label': title,
+      class: 'chart interactive', viewBox: `0 0 ${kMostWidth} ${height}`, tabindex: 0, role: 'img', 'aria-label': title,
     });
     this.drawing.addEventListener('pointermove', (event) => {
       const box = this.drawing.getBoundingClientRect();
-      this.show(this.toX((event.clientX - box.left) * kWidth / box.width));
+      this.show(this.toX((event.clientX - box.left) * this.width / box.width));
     });
     this.drawing.addEventListener('pointerleave', () => this.show(undefined));
     this.drawing.addEventListener('keydown', (event) => this.key(event));
-    this.element = h('div', { class: 'chart-box' }, this.legend, this.drawing, this.readout);
+    this.element = h('div', { class: 'chart-box' }, this.legend, this.drawing,
+      h('div', { class: 'chart-foot' }, this.readout, figureButton(title, () => this.figure())));
+    new ResizeObserver(() => this.fit()).observe(this.element);
   }
 
   update(content: ChartContent): void {
     this.content = content;
     this.drawLegend(content.series);
     this.draw();
+  }
+
+  private fit(): void {
+    const width = Math.round(clamp(this.element.clientWidth, kLeastWidth, kMostWidth));
+    if (width === this.width || this.element.clientWidth === 0) return;
+    this.width = width;
+    this.drawing.setAttribute('viewBox', `0 0 ${width} ${this.height}`);
+    this.draw();
+  }
+
+  private figure(): FigureSource {
+    const series = this.visible(), { name = '', caption = '' } = this.about(), x = this.content?.x.label ?? '';
+    const page = document.querySelector('h1')?.textContent ?? '', y = this.content?.y.label ?? '';
+    return {
+      name: fileName(page, name || this.title), title: this.title,
+      caption: `${this.title}: ${y}, over ${x}. ${caption || page}.`,
+      csv: { what: `${series.length === 1 ? 'the curve' : `${series.length} curves`}`, rows: () => rowsOf(series, x) },
+      content: { drawing: this.drawing, legend: series.map((s) => ({ name: s.name, line: lineLook(s.style, 2) })) },
+    };
   }
 
   private drawLegend(series: readonly Series[]): void {
@@ -96,24 +128,28 @@ export class Chart {
 
   private toX(across: number): number | undefined {
     if (!this.content) return undefined;
-    const { x } = this.content, share = clamp((across - kLeft) / (kWidth - kLeft - kRight), 0, 1);
+    const { x } = this.content, share = clamp((across - kLeft) / (this.width - kLeft - kRight), 0, 1);
     return x.logarithmic ? x.from * (x.to / x.from) ** share : x.from + (x.to - x.from) * share;
   }
 
   private across(value: number): number {
-    return kLeft + shareOf(value, this.content!.x) * (kWidth - kLeft - kRight);
+    return kLeft + shareOf(value, this.content!.x) * (this.width - kLeft - kRight);
   }
 
   private down(value: number): number {
-    return kTop + (1 - clamp(shareOf(value, this.content!.y), -100, 100)) * (this.height - kTop - kBottom);
+    const bottom = this.height - kBottom, room = this.hasZero() ? 28 : 0;
+    if (value === 0 && room > 0) return bottom;
+    return kTop + (1 - clamp(shareOf(value, this.content!.y), -100, 100)) * (bottom - room - kTop);
   }
+
+  private hasZero(): boolean { return Boolean(this.content?.zero && this.content.y.logarithmic && this.visible().some((s) => s.y.includes(0))); }
 
   private visible(): Series[] { return this.content?.series.filter((s) => !this.hidden.has(s.name)) ?? []; }
 
   private draw(): void {
     if (!this.content) return;
     const { x, y, bands = [], level } = this.content;
-    const bottom = this.height - kBottom, right = kWidth - kRight;
+    const bottom = this.height - kBottom, right = this.width - kRight;
     const parts: SVGElement[] = [];
     bands.forEach((band, i) => {
       const left = this.across(clamp(band.from, x.from, x.to)), end = this.across(clamp(band.to, x.from, x.to));
@@ -121,12 +157,12 @@ export class Chart {
       parts.push(svg('rect', { class: `band-${i % 2}`, x: left, y: kTop, width: end - left, height: bottom - kTop }),
         svg('text', { class: 'band-label', x: left + 4, y: kTop - 6 }, band.title));
     });
-    for (const value of ticks(y, 6)) {
+    for (const value of [...(this.hasZero() ? [0] : []), ...ticks(y, 6)]) {
       const at = this.down(value);
       parts.push(svg('line', { class: 'grid-line', x1: kLeft, x2: right, y1: at, y2: at }),
-        svg('text', { class: 'tick-label', x: kLeft - 8, y: at + 4, 'text-anchor': 'end' }, tickText(value, y)));
+        svg('text', { class: 'tick-label', x: kLeft - 8, y: at + 4, 'text-anchor': 'end' }, value === 0 ? '0' : tickText(value, y)));
     }
-    for (const value of ticks(x, 9)) {
+    for (const value of ticks(x, Math.max(3, Math.floor(this.width / 100)))) {
       const at = this.across(value);
       parts.push(svg('line', { class: 'tick', x1: at, x2: at, y1: bottom, y2: bottom + 5 }),
         svg('text', { class: 'tick-label', x: at, y: bottom + 18, 'text-anchor': 'middle' }, tickText(value, x)));
@@ -144,16 +180,32 @@ export class Chart {
     const inside = svg('g', { 'clip-path': `url(#${this.clip})` });
     parts.push(svg('clipPath', { id: this.clip }, svg('rect', { x: kLeft, y: kTop - 3, width: right - kLeft + 3, height: bottom - kTop + 6 })), inside);
     for (const s of this.visible()) inside.append(svg('path', { ...lineLook(s.style, 1.8), fill: 'none', d: this.path(s) }));
-    this.drawing.replaceChildren(...parts, this.rule);
+    this.drawing.replaceChildren(...parts, ...this.marks(), this.rule);
     this.show(this.at);
   }
 
+  private barPath(s: Series): string {
+    const bottom = this.height - kBottom, half = s.x.length > 1 ? (s.x[1]! - s.x[0]!) / 2 : 0;
+    return s.x.map((value, i) => `${i === 0 ? `M${this.across(value - half).toFixed(1)} ${bottom}` : ''}V${this.down(s.y[i]!).toFixed(1)}H${this.across(value + half).toFixed(1)}`).join('') + `V${bottom}`;
+  }
+
+  /** Each name has a line of its own, since the places may be close together. */
+  private marks(): SVGElement[] {
+    const middle = (kLeft + this.width - kRight) / 2;
+    return (this.content?.marks ?? []).flatMap(({ at, name }, i) => {
+      const across = this.across(at), down = kTop + 12 * i + 8, isRight = across > middle;
+      return [svg('line', { class: 'tick', x1: across, x2: across, y1: down - 8, y2: this.height - kBottom, 'stroke-dasharray': '2 3' }),
+        svg('text', { class: 'band-label', x: across + (isRight ? -4 : 4), y: down, 'text-anchor': isRight ? 'end' : 'start' }, name)];
+    });
+  }
+
   private path(s: Series): string {
-    const { x, y } = this.content!;
+    const { x, y, bars } = this.content!;
+    if (bars) return this.barPath(s);
     let path = '', pen = false;
     s.x.forEach((value, i) => {
       const height = s.y[i]!;
-      const drawn = Number.isFinite(height) && value >= x.from && value <= x.to && (!y.logarithmic || height > 0);
+      const drawn = Number.isFinite(height) && value >= x.from && value <= x.to && (!y.logarithmic || height > 0 || (height === 0 && this.hasZero()));
       if (drawn) path += `${pen ? 'L' : 'M'}${this.across(value).toFixed(1)} ${this.down(height).toFixed(1)}`;
       pen = drawn;
     });
@@ -181,7 +233,7 @@ export class Chart {
     const i = nearest(xs, value), at = this.across(xs[i]!);
     const there = series.map((s) => ({ name: s.name, style: s.style, y: s.x === xs ? s.y[i]! : between(s, xs[i]!) }));
     const { from, to } = this.content.y;
-    const marks = there.filter((s) => s.y >= from && s.y <= to)
+    const marks = there.filter((s) => (s.y >= from && s.y <= to) || (s.y === 0 && this.hasZero()))
       .map((s) => svg('circle', { class: `marker-${s.style}`, cx: at, cy: this.down(s.y), r: 3.5 }));
     this.rule.replaceChildren(
       svg('line', { class: 'axis', x1: at, x2: at, y1: kTop, y2: this.height - kBottom }), ...marks);
@@ -189,6 +241,14 @@ export class Chart {
       there.map((s) => `${s.name} ${numberText(s.y, 5)}`).join(' · ');
     this.drawing.setAttribute('aria-label', `${this.title}; ${this.readout.textContent}`);
   }
+}
+
+/** One column for x if all series share it, else the points of each series one after another. */
+function rowsOf(series: readonly Series[], x: string): (string | number)[][] {
+  const shared = series[0]?.x;
+  if (shared && series.every((s) => s.x.length === shared.length && s.x.every((v, i) => v === shared[i])))
+    return [[x, ...series.map((s) => s.name)], ...shared.map((v, i) => [v, ...series.map((s) => s.y[i]!)])];
+  return [['series', x, 'value'], ...series.flatMap((s) => s.x.map((v, i) => [s.name, v, s.y[i]!]))];
 }
 
 /** The series interpolated at x; NaN outside of it. */
@@ -206,7 +266,8 @@ function tickText(value: number, axis: ChartAxis): string {
     const digits = clamp(Math.ceil(Math.log10(size / (axis.to - axis.from))) + 3, 3, 12);
     return Math.abs(value) < 1e-9 * size ? '0' : numberText(value, digits);
   }
-  return numberText(value).replace('1 × ', '');
+  // All labels of an axis in one form: 0.01 or 10⁻².
+  return axis.from >= 1e-3 && axis.to <= 1e4 ? numberText(value) : powerText(Math.round(Math.log10(value)));
 }
 
 function nearest(sorted: readonly number[], value: number): number {

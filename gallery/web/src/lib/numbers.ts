@@ -30,8 +30,12 @@ function unusual(value: number): string | undefined {
 /** "0.0123", "1234", "4.9 × 10⁻⁴"; "–" where it is not a number. */
 export function numberText(value: number, digits = 3): string {
   const { mantissa, exponent } = parts(value, digits, 1e-4);
-  const raised = exponent.replace(/[-0-9]/g, (c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]!));
-  return unusual(value) ?? minus(mantissa) + (raised && ` × 10${raised}`);
+  return unusual(value) ?? minus(mantissa) + (exponent && ` × ${powerText(exponent)}`);
+}
+
+/** "10⁻³" */
+export function powerText(exponent: number | string): string {
+  return '10' + String(exponent).replace(/[-0-9]/g, (c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]!));
 }
 
 /** "4.9e−4": for where there is little room. */

@@ -5,9 +5,10 @@ import type { InlinedPage } from '../records';
 
 export interface InlinedData { readonly name: string; readonly data: unknown }
 
-const kIndex = 'index.html';
+/** The page that the file opens with: its index, or the only one. */
+const first = document.querySelector('main')?.getAttribute('data-page') ?? 'index.html';
 let files: Map<string, Element> | undefined;
-let page = kIndex;
+let page = first;
 
 function allFiles(): Map<string, Element> {
   files ??= new Map([...document.querySelectorAll('script[data-file]')].map((e) => [e.getAttribute('data-file') ?? '', e]));
@@ -36,8 +37,8 @@ export const pictureAt = (source: string): string => fileAt(source)?.textContent
 export const pageAt = (source: string): string => (allFiles().size === 0 ? source : '#page=' + pathOf(source));
 
 const pageInHash = (): string => {
-  const asked = new URLSearchParams(location.hash.slice(1)).get('page') ?? kIndex;
-  return allFiles().has(asked) ? asked : kIndex;
+  const asked = new URLSearchParams(location.hash.slice(1)).get('page') ?? first;
+  return allFiles().has(asked) ? asked : first;
 };
 
 /** Puts the page that the hash names into <main>. Does nothing on a page of a site of many files. */
@@ -57,7 +58,7 @@ export function openPage(main: HTMLElement, receive: (data: InlinedData) => void
   document.title = shown.title;
   document.body.dataset['view'] = shown.view;
   document.body.className = 'view-' + shown.view;
-  const data = inlined(page === kIndex ? 'grid.data.js' : 'data.js');
+  const data = inlined(shown.view === 'grid' ? 'grid.data.js' : 'data.js');
   if (data) receive(data);
   // A page begins as a page of its own does, without the listeners of the one before.
   addEventListener('hashchange', () => { if (pageInHash() !== page) location.reload(); });

@@ -1,9 +1,12 @@
 // The state of a page in the URL's hash, so that a link shows the same: #a=lobelia&b=povray&mode=slide.
 // A hash without '=' is an anchor of the page and left alone.
 
+/** What is shown where one file holds several pages: of a report in one file (single_file.ts), or cells (views/packed.ts). */
+export const kPlaces: readonly string[] = ['page', 'cell'];
+
 export class HashState<Key extends string> {
   private values = new Map<string, string>();
-  private page: string | null = null;  // of a report in one file (single_file.ts)
+  private place: [string, string][] = [];
   private readonly listeners: (() => void)[] = [];
 
   /** Values at their default are left out of the link. */
@@ -28,8 +31,7 @@ export class HashState<Key extends string> {
       if (value === this.defaults[key]) this.values.delete(key);
       else this.values.set(key, value);
     }
-    const page: [string, string][] = this.page === null ? [] : [['page', this.page]];
-    const query = new URLSearchParams([...page, ...this.values]).toString();
+    const query = new URLSearchParams([...this.place, ...this.values]).toString();
     if (query === '' && !location.hash.includes('=')) return;
     history.replaceState(history.state, '', query === '' ? '#top' : '#' + query);
   }
@@ -41,7 +43,7 @@ export class HashState<Key extends string> {
     const text = location.hash.slice(1);
     if (text !== '' && !text.includes('=')) return false;
     this.values = new Map();
-    this.page = new URLSearchParams(text).get('page');
+    this.place = [...new URLSearchParams(text)].filter(([key]) => kPlaces.includes(key));
     for (const [key, value] of new URLSearchParams(text))
       if (Object.hasOwn(this.defaults, key)) this.values.set(key, value);
     return true;

@@ -4,6 +4,7 @@ import { profileView } from '../cell/profile_view';
 import { viewerState } from '../cell/choice';
 import { Viewer } from '../cell/viewer';
 import { pageData } from '../lib/data';
+import { kPlaces } from '../lib/state';
 
 /** Links to other cells keep the state of this page. */
 function takeStateAlong(main: HTMLElement): void {
@@ -11,8 +12,7 @@ function takeStateAlong(main: HTMLElement): void {
     const link = event.target instanceof Element ? event.target.closest<HTMLAnchorElement>('nav.axes a') : null;
     if (!link) return;
     const state = new URLSearchParams(location.hash.includes('=') ? location.hash.slice(1) : '');
-    const page = new URLSearchParams(link.hash.slice(1)).get('page');
-    if (page !== null) state.set('page', page);
+    for (const [name, value] of new URLSearchParams(link.hash.slice(1))) if (kPlaces.includes(name)) state.set(name, value);
     link.hash = state.toString();
   };
   for (const kind of ['pointerdown', 'focusin', 'click'] as const) main.addEventListener(kind, take);
@@ -20,13 +20,22 @@ function takeStateAlong(main: HTMLElement): void {
 
 export function cell(main: HTMLElement): void {
   const data = pageData<CellPage>();
-  if (!data) return;
+  if (data) showCell(main, data);
+}
+
+export function showCell(main: HTMLElement, data: CellPage): void {
   takeStateAlong(main);
   const state = viewerState();
   const pictures = main.querySelector('section.pictures');
   if (pictures && data.engines.some((e) => e.picture)) {
-    pictures.before(new Viewer(data, state).element);
+    const viewer = new Viewer(data, state).element;
+    pictures.before(viewer);
     pictures.classList.add('without-script');
+    // Not by its hash, which is the state of the page.
+    main.querySelector('a.skip')?.addEventListener('click', (event) => {
+      event.preventDefault();
+      viewer.querySelector<HTMLElement>('.stage')?.focus();
+    });
   }
   const curves = main.querySelector('#profile')?.parentElement;
   const profile = profileView(data, state);

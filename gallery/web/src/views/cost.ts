@@ -1,5 +1,7 @@
 // The page on cost: the pointer or a key marks a variant in its table and in all charts of that table.
-import { h } from '../lib/dom';
+import { h, select } from '../lib/dom';
+import { figureButton, type FigureSource } from '../lib/figure';
+import { fileName } from '../lib/figure_text';
 import { clamp } from '../lib/numbers';
 import { HashState } from '../lib/state';
 
@@ -27,18 +29,32 @@ class CostTable {
       this.listen(row);
     }
     for (const chart of section.querySelectorAll<SVGSVGElement>('svg.chart')) this.makeReadable(chart);
+    this.chooseCharts();
     section.addEventListener('pointerleave', () => this.mark(this.pinned()));
     state.onChange(() => this.refresh());
     this.refresh();
   }
 
+  /** One chart at a time, by the error that is chosen. */
+  private chooseCharts(): void {
+    const more = this.section.querySelector('details.more-charts');
+    if (!more) return;
+    const figures = [...this.section.querySelectorAll<HTMLElement>('figure[data-title]')];
+    const show = (value: string): void => figures.forEach((figure, i) => { figure.hidden = i !== Number(value); });
+    const list = select('Error', figures.map((figure, i) => ({ value: String(i), label: figure.dataset['title'] ?? '' })), '0', show);
+    figures[0]!.before(h('div', { class: 'controls' }, list.element));
+    more.before(...figures.slice(1));
+    more.remove();
+    show('0');
+  }
+
   private makeReadable(chart: SVGSVGElement): void {
     const place = h('output', { class: 'readout' });
     this.readouts.push({ chart, place });
-    chart.after(place);
+    chart.after(h('div', { class: 'chart-foot' }, place, figureButton(chart.querySelector('title')?.textContent ?? 'the chart', () => figureOf(chart))));
     const points = this.points.filter((p) => chart.contains(p));
     // In the order of the time axis.
-    const across = (p: SVGGElement): number => p.getBBox().x + p.getBBox().width / 2;
+    const across = (p: SVGGElement): number => Number(p.dataset['x']);
     points.sort((a, b) => across(a) - across(b));
     // The points of a chart are one stop for the tab key; arrow keys go from point to point.
     chart.setAttribute('role', 'group');
@@ -97,6 +113,20 @@ class CostTable {
         (key === '' ? 'Point at the chart or the table, or use arrow keys; Enter keeps a variant marked.' : `${key}: no error that can be drawn`);
     }
   }
+}
+
+/** A chart that the program drew, as a figure. */
+function figureOf(chart: SVGSVGElement): FigureSource {
+  const figure = chart.closest('figure'), section = chart.closest('section'), points = [...chart.querySelectorAll<SVGGElement>('g.point[data-x]')];
+  const text = (place: ParentNode | null | undefined, selector: string): string => place?.querySelector(selector)?.textContent ?? '';
+  const [x = '', y = ''] = [...chart.querySelectorAll('.axis-label')].map((label) => label.textContent ?? '');
+  const title = text(section, 'h2') || text(document, 'h1'), caption = text(section, '.finding'), what = figure?.dataset['name'] ?? '';
+  return {
+    name: fileName(document.body.dataset['view'] ?? '', what || title), title,
+    caption: [`${title}: ${y}, over ${x}`, ...(caption ? [caption.replace(/\.$/, '')] : [])].join('. ') + '.',
+    csv: { what: `${points.length} points`, rows: () => [['name', x, y], ...points.map((p) => [p.dataset['key'] ?? '', Number(p.dataset['x']), Number(p.dataset['y'])])] },
+    content: { drawing: chart, legend: [] },
+  };
 }
 
 /** Scrolls the table to a row, never the page. */

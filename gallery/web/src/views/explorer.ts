@@ -1,20 +1,27 @@
-// One highlight, or two over each other: curve, coefficient, peak, width and energy at any exponent.
+// One highlight, or two over each other: sphere, curve, coefficient, peak, width, energy and cost at any exponent.
+import { kSphereState, SphereView } from '../explorer/sphere_view';
 import { AtExponent, unpacked } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
-import { h, select } from '../lib/dom';
+import { announce, button, h, select } from '../lib/dom';
 import { clamp, numberText } from '../lib/numbers';
 import { HashState } from '../lib/state';
-import type { HighlightTable, HighlightTables, LobeTable, ModelTable } from '../records';
+import type { HighlightTable, HighlightTables, LobeTable, ModelTable, Operations } from '../records';
 
 type Field = 'lobe' | 'model' | 'norm' | 'n';
-type Key = Field | `${Field}2` | 'two' | 'scale' | 'unit';
+type Key = Field | `${Field}2` | 'two' | 'scale' | 'unit' | keyof typeof kSphereState;
 const kSides = [{ suffix: '', name: 'A' }, { suffix: '2', name: 'B' }] as const;
 const kDecades = 6;  // below the peak on a logarithmic axis
 
 interface Chosen {
   readonly name: string; readonly lobe: LobeTable; readonly model: ModelTable; readonly highlight: HighlightTable;
-  readonly norm: string; readonly at: AtExponent;
+  readonly norm: string; readonly at: AtExponent; readonly shader: string;
+}
+
+/** "12 ×, 9 +, 1 ÷": of the lobe and the model together. */
+function operationsText(lobe: Operations, model: Operations): string {
+  const signs: [keyof Operations, string][] = [['multiply', '×'], ['add', '+'], ['divide', '÷'], ['root', '√'], ['transcendental', 'exp or log'], ['compare', 'comparisons']];
+  return signs.flatMap(([key, sign]) => (lobe[key] + model[key] ? `${lobe[key] + model[key]} ${sign}` : [])).join(', ');
 }
 
 export function explorer(main: HTMLElement): void {
@@ -24,14 +31,15 @@ export function explorer(main: HTMLElement): void {
 
 class Explorer {
   private readonly state;
-  private readonly curves = new Chart('The highlight over the angle', 400);
-  private readonly energy = new Chart('Energy over incidence', 400);
+  private readonly curves = new Chart('The highlight over the angle', 400, () => this.about('curve'));
+  private readonly energy = new Chart('Energy over incidence', 400, () => this.about('energy'));
   private readonly numbers = h('tbody');
   private readonly heads = h('tr');
   private readonly panels: { refresh(): void; element: HTMLElement }[];
   private readonly two = h('input', { type: 'checkbox', id: 'two' });
   private readonly scale;
   private readonly unit;
+  private readonly sphere;
   private readonly note = h('p', { class: 'stage-note' });
 
   constructor(private readonly tables: HighlightTables, place: Element) {
@@ -40,8 +48,9 @@ class Explorer {
     const other = tables.lobes.find((l) => l.name === 'cs16')?.name ?? lobe;
     this.state = new HashState<Key>({
       lobe, model, norm: 'exact', n: middle, lobe2: other, model2: model, norm2: 'exact', n2: middle,
-      two: '1', scale: 'linear', unit: 'radiance',
+      two: '1', scale: 'linear', unit: 'radiance', ...kSphereState,
     });
+    this.sphere = new SphereView(this.state, () => this.shown().map((c) => `${c.model.title}, ${c.lobe.title}, n = ${numberText(c.at.n, 4)}`));
     this.panels = kSides.map((side) => this.panel(side));
     this.two.addEventListener('change', () => this.change({ two: this.two.checked ? '1' : '0' }));
     this.scale = select('Scale', [{ value: 'linear', label: 'linear' }, { value: 'log', label: 'logarithmic' }], 'linear',
@@ -50,15 +59,15 @@ class Explorer {
       (unit) => this.change({ unit }), 'explorer-unit');
     place.append(h('section', { class: 'explorer', 'aria-label': 'Explorer' },
       h('div', { class: 'choices' }, ...this.panels.map((p) => p.element)),
-      h('div', { class: 'figure-grid' },
+      h('div', { class: 'figure-grid' }, this.sphere.element,
         h('figure', { class: 'chart-figure' }, h('h2', {}, 'The highlight'),
           h('div', { class: 'controls' }, this.scale.element, this.unit.element), this.curves.element,
-          h('figcaption', {}, 'Radiance per unit irradiance where N.L = 1: coefficient times lobe.')),
+          h('figcaption', {}, 'Radiance per unit irradiance where N·L = 1: coefficient times lobe.')),
         h('figure', { class: 'chart-figure' }, h('h2', {}, 'Energy over incidence'), this.note, this.energy.element,
           h('figcaption', {}, 'Seen: towards an eye under a sky of radiance 1. Lit: what leaves of a beam. Above 1 the model ' +
-            'makes light. They are one where light and eye are treated alike.'))),
+            'makes light. They are one where light and eye are treated alike.')),
       h('div', { class: 'table-wrap', tabindex: 0, role: 'region', 'aria-label': 'The numbers' },
-        h('table', { class: 'figures explorer-numbers' }, h('thead', {}, this.heads), this.numbers))));
+        h('table', { class: 'figures explorer-numbers' }, h('thead', {}, this.heads), this.numbers)))));
     this.state.onChange(() => this.refresh());
     this.refresh();
   }
@@ -80,7 +89,8 @@ class Explorer {
     const highlight = highlights.find((x) => x.lobe === lobe?.name && x.model === model?.name);
     if (!lobe || !model || !highlight) return undefined;
     const norm = key('norm') === 'paper' && highlight.paper ? 'paper' : 'exact';
-    return { name: side.name, lobe, model, highlight, norm, at: new AtExponent(this.tables, this.exponent(`n${side.suffix}`)) };
+    const shader = ((norm === 'paper' && highlight.paperShader) || highlight.shader).map((part) => this.tables.shaderParts[part]).join('');
+    return { name: side.name, lobe, model, highlight, norm, shader, at: new AtExponent(this.tables, this.exponent(`n${side.suffix}`)) };
   }
 
   private panel(side: (typeof kSides)[number]): { refresh(): void; element: HTMLElement } {
@@ -99,8 +109,18 @@ class Explorer {
       number.value = String(this.exponent(`n${suffix}`));
     });
     const formula = h('p', { class: 'formula' });
+    const text = h('pre', { tabindex: 0 }), shader = h('details', {}, h('summary', {}, 'Shader (GLSL)'), text);
+    const copy = button('Copy shader', () => {
+      navigator.clipboard?.writeText(text.textContent ?? '').then(() => announce('The shader is copied.'), () => { shader.open = true; });
+    }, { 'aria-label': `Copy shader ${name}` });
+    const save = button('Save float picture', () => {
+      const address = URL.createObjectURL(this.sphere.pfm(suffix ? 1 : 0)), chosen = this.chosen(side);
+      h('a', { href: address, download: `${chosen?.model.name}-${chosen?.lobe.name}-${chosen?.at.n}.pfm` }).click();
+      setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    }, { 'aria-label': `Save float picture ${name}` });
     const body = h('div', { class: 'choice-body' }, lobe.element, model.element, norm.element,
-      h('div', { class: 'exponent' }, h('label', { for: `n${suffix}` }, 'Exponent n'), slider, number), formula);
+      h('div', { class: 'exponent' }, h('label', { for: `n${suffix}` }, 'Exponent n'), slider, number), formula,
+      h('div', { class: 'controls' }, copy, save), shader);
     const element = h('fieldset', { class: `choice choice-${name}` },
       h('legend', {}, suffix ? h('label', {}, this.two, ' B, laid over it') : 'A'), body);
     const refresh = (): void => {
@@ -110,13 +130,28 @@ class Explorer {
       model.set(chosen.model.name);
       norm.set(chosen.norm);
       for (const option of norm.element.querySelectorAll('option')) option.disabled = option.value === 'paper' && !chosen.highlight.paper;
-      for (const input of body.querySelectorAll<HTMLInputElement | HTMLSelectElement>('input, select')) input.disabled = !on;
+      for (const input of body.querySelectorAll<HTMLInputElement | HTMLSelectElement | HTMLButtonElement>('input, select, button')) input.disabled = !on;
       slider.value = String(Math.log2(chosen.at.n));
       slider.setAttribute('aria-valuetext', numberText(chosen.at.n, 4));
       if (document.activeElement !== number) number.value = String(chosen.at.n);
-      formula.textContent = `${chosen.lobe.formula}, s = 1 − cos of the angle between ${chosen.model.angle}`;
+      text.textContent = chosen.shader;
+      const asked = [this.state.get(`lobe${suffix}`), this.state.get(`model${suffix}`)];
+      const missing = asked.filter((name) => name !== chosen.lobe.name && name !== chosen.model.name).map((name) => `“${name}” is not in the tables. `);
+      formula.textContent = `${missing.join('')}${chosen.lobe.formula}, s = 1 − cos of the angle between ${chosen.model.angle}`;
     };
     return { refresh, element };
+  }
+
+  private shown(): Chosen[] {
+    return kSides.slice(0, this.state.get('two') === '1' ? 2 : 1).flatMap((side) => this.chosen(side) ?? []);
+  }
+
+  private about(what: string): { name: string; caption: string } {
+    const shown = this.shown();
+    return {
+      name: [what, ...shown.map((c) => `${c.model.name}-${c.lobe.name}-n${numberText(c.at.n, 4)}`)].join('-'),
+      caption: shown.map((c) => `${c.name}: ${c.model.title}, ${c.lobe.title}, n = ${numberText(c.at.n, 4)}, ${c.norm === 'paper' ? 'as the paper prints it' : 'exact'}`).join('; '),
+    };
   }
 
   private refresh(): void {
@@ -125,7 +160,10 @@ class Explorer {
     this.scale.set(this.state.get('scale'));
     this.unit.set(this.state.get('unit'));
     for (const panel of this.panels) panel.refresh();
-    const shown = kSides.slice(0, both ? 2 : 1).flatMap((side) => this.chosen(side) ?? []);
+    const shown = this.shown();
+    this.sphere.refresh(shown.map((c) => ({
+      model: c.model, n: c.at.n, shader: c.shader, curve: c.at.curve(c.lobe), coefficient: c.at.coefficient(c.highlight, c.norm),
+    })));
     this.drawCurves(shown);
     this.drawEnergy(shown);
     this.fillNumbers(shown);
@@ -172,9 +210,10 @@ class Explorer {
       ['Exponent n', (c) => numberText(c.at.n, 5)],
       ['Coefficient', (c) => numberText(c.at.coefficient(c.highlight, c.norm), 4)],
       ['How it comes about', (c) => (c.norm === 'paper' ? 'as the paper prints it' : c.model.coefficient)],
-      ['Peak', (c) => `${numberText(c.at.coefficient(c.highlight, c.norm), 4)}${c.model.hasShadowing ? ' G / N.V' : c.model.appliesCosine ? ' N.L' : ' at any incidence'}`],
+      ['Peak', (c) => `${numberText(c.at.coefficient(c.highlight, c.norm), 4)}${c.model.hasShadowing ? ' G / N·V' : c.model.appliesCosine ? ' N·L' : ' at any incidence'}`],
       ['Half-width of the lobe', (c) => `${numberText(c.at.halfWidth(c.lobe), 4)}°`],
       ['Lobe is 0 beyond', (c) => `${numberText(c.at.reach(c.lobe), 4)}°`],
+      ['Operations a point', (c) => operationsText(c.lobe.operations, c.model.operations)],
       ['Energy at normal incidence', (c) => numberText(c.at.albedo(c.highlight, c.norm, false).y[0]!, 4)],
       ['Most seen', (c) => numberText(Math.max(...c.at.albedo(c.highlight, c.norm, false).y), 4)],
       ['Most of a beam', (c) => numberText(Math.max(...c.at.albedo(c.highlight, c.norm, true).y), 4)],

@@ -52,7 +52,7 @@ function drawCharts(main: HTMLElement, charts: readonly PaperFigure[]): void {
   for (const content of charts) {
     const drawing = main.querySelector(`[data-chart="${CSS.escape(content.id)}"] > svg`);
     if (!drawing) continue;
-    const chart = new Chart(content.title, 340);
+    const chart = new Chart(content.title, 340, () => ({ caption: content.description.replace(/\.$/, '') }));
     replaceDrawing(drawing, chart.element);
     chart.update({ ...content, series: content.series.map((s) => ({ ...s, x: s.x.map(toNumber), y: s.y.map(toNumber) })) });
   }

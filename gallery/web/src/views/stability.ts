@@ -2,7 +2,9 @@
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
 import { h, replaceDrawing, select } from '../lib/dom';
-import { numberText, toNumber, type RecordNumber } from '../lib/numbers';
+import { figureButton, type FigureSource } from '../lib/figure';
+import { fileName } from '../lib/figure_text';
+import { numberText, powerText, toNumber, type RecordNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import type { StabilityPage } from '../records';
 
@@ -21,6 +23,32 @@ export function stability(main: HTMLElement): void {
   });
   if (data.summaries.length > 0) replace(main, 'over-exponent-figure', overExponent(data, state));
   if (data.curves.length > 0) replace(main, 'over-angle-figure', overAngle(data, exponents, state));
+  for (const row of main.querySelectorAll<HTMLElement>('.picture-four')) {
+    const title = row.previousElementSibling?.textContent ?? '';
+    for (const image of row.querySelectorAll('img')) image.loading = 'eager';
+    row.after(h('div', { class: 'chart-foot' }, figureButton(`Close to a highlight, ${title}`, () => rowFigure(row, title))));
+  }
+}
+
+/** The colours of studies/stability/pictures.cpp, of errors from 10⁻⁸ to 1. */
+const kErrorColours = [[0, 0, 0], [30, 60, 200], [210, 40, 40], [250, 210, 40], [255, 255, 255]] as const;
+
+function errorColour(share: number): string {
+  const at = share * (kErrorColours.length - 1), from = Math.min(kErrorColours.length - 2, Math.floor(at)), part = at - from;
+  return `rgb(${[0, 1, 2].map((c) => Math.round(kErrorColours[from]![c]! * (1 - part) + kErrorColours[from + 1]![c]! * part)).join(' ')})`;
+}
+
+/** The pictures of a row in one figure. */
+function rowFigure(row: HTMLElement, title: string): FigureSource {
+  const images = [...row.querySelectorAll('img')], first = images[0];
+  if (!first || images.some((image) => !image.complete || image.naturalWidth === 0)) throw new Error('The pictures are not loaded yet.');
+  const width = first.naturalWidth, picture = h('canvas', { width: width * images.length, height: first.naturalHeight }), context = picture.getContext('2d');
+  images.forEach((image, i) => context?.drawImage(image, i * width, 0));
+  const tags = images.map((image) => image.alt), name = fileName('highlight', title);
+  return {
+    name, title: `Close to a highlight, ${title}`, caption: `A modified Phong highlight that fills the picture, ${title}. From left to right: ${tags.join('; ')}.`,
+    content: { picture, tags, bar: { colour: errorColour, label: 'error of the peak, logarithmic', ticks: [-8, -6, -4, -2, 0].map((power, i) => ({ share: i / 4, label: powerText(power) })) } },
+  };
 }
 
 function replace(main: HTMLElement, id: string, content: HTMLElement): void {
@@ -32,8 +60,10 @@ function replace(main: HTMLElement, id: string, content: HTMLElement): void {
 }
 
 function overExponent(data: StabilityPage, state: State): HTMLElement {
-  const unique = (values: string[]): { value: string; label: string }[] => [...new Set(values)].map((value) => ({ value, label: value }));
-  const chart = new Chart('Error over exponent', 380);
+  const unique = (values: string[]): { value: string; label: string }[] => [...new Set(values)].map((value) => ({ value, label: value.replace(/_/g, ' ') }));
+  const chart = new Chart('Error over exponent', 380, () => ({
+    name: `error-over-exponent-${state.get('group')}-${state.get('lobe') || 'all'}`, caption: `Cases: ${state.get('group')}; lobe: ${state.get('lobe') || 'the worst of all'}`,
+  }));
   const change = (changes: Record<string, string>): void => { state.set(changes); draw(); };
   const group = select('Cases', unique(data.summaries.map((s) => s.group)), '', (v) => change({ group: v }), 'group');
   const lobe = select('Lobe', [{ value: '', label: 'the worst of all' }, ...unique(data.summaries.map((s) => s.lobe).filter((l) => l && !l.includes(',')))], '',
@@ -54,11 +84,11 @@ function overExponent(data: StabilityPage, state: State): HTMLElement {
     const x = [...worst.keys()].sort((a, b) => a - b);
     const values = x.flatMap((n) => [worst.get(n)!.naive, worst.get(n)!.ours]);
     const range = rangeOf(values.some((v) => v === Infinity) ? [...values, kNoNumber[k]!] : values, true, 45);
-    // Infinity is at the top, an exact result below the chart.
+    // Infinity is at the top, an exact result at 0.
     const y = (name: 'naive' | 'ours'): number[] => x.map((n) => Math.min(worst.get(n)![name], range.to));
     chart.update({
       x: { label: 'exponent n', from: x[0] ?? 1, to: x.length > 1 ? x[x.length - 1]! : (x[0] ?? 1) * 10, logarithmic: true },
-      y: { label: kLabels[k]!, ...range, logarithmic: true },
+      y: { label: kLabels[k]!, ...range, logarithmic: true }, zero: true,
       series: [{ name: 'naive float32', x, y: y('naive'), style: kNaive }, { name: 'ours', x, y: y('ours'), style: kOurs }],
     });
   }
@@ -69,9 +99,11 @@ function overExponent(data: StabilityPage, state: State): HTMLElement {
 }
 
 function overAngle(data: StabilityPage, exponents: string[], state: State): HTMLElement {
-  const chart = new Chart('A highlight over the angle', 380);
+  const chart = new Chart('A highlight over the angle', 380, () => ({
+    name: `highlight-n${state.get('n')}-${state.get('show')}`, caption: `A modified Phong highlight, n = ${numberText(Number(state.get('n')), 4)}`,
+  }));
   const change = (changes: Record<string, string>): void => { state.set(changes); draw(); };
-  const exponent = select('Exponent n', exponents.map((n) => ({ value: n, label: numberText(Number(n), 4) })), '', (v) => change({ n: v }), 'exponent');
+  const exponent = select('Exponent n', exponents.map((n) => ({ value: n, label: numberText(Number(n), 4).replace(/^1 × /, '') })), '', (v) => change({ n: v }), 'exponent');
   const show = select('Show', [{ value: 'value', label: 'the highlight' }, { value: 'error', label: 'its error' }], '', (v) => change({ show: v }), 'show');
 
   function draw(): void {
@@ -89,7 +121,7 @@ function overAngle(data: StabilityPage, exponents: string[], state: State): HTML
     const range = asError ? rangeOf(drawn, true, 20) : { from: 0, to: Math.min(2, rangeOf([0, 1, ...drawn], false).to) };
     chart.update({
       x: { label: 'angle between light and mirror direction (degrees)', from: 0, to: x[x.length - 1] || 1 },
-      y: { label: asError ? '|value − truth|, of the peak' : 'value, of the peak', ...range, logarithmic: asError }, series,
+      y: { label: asError ? '|value − truth|, of the peak' : 'value, of the peak', ...range, logarithmic: asError }, zero: true, series,
     });
   }
   state.onChange(draw);

@@ -1,0 +1,82 @@
+// Comparing pictures beside reading them, beside NVIDIA's FLIP, and many pairs at once.
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+
+#include "bench/goals.hpp"
+#include "bench/inputs.hpp"
+#include "core/files.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Pair {
+  fs::path a, b;
+};
+
+Pair rendered(const Tools& tools, const std::string& name, int width, int height,
+              const std::string& ending) {
+  Pair pair{tools.scratch / (name + "_a.exr"), tools.scratch / (name + "_b.exr")};
+  for (const auto& [file, scene] : {std::pair{pair.a, "head_on"}, {pair.b, "two_lights"}})
+    render_file(tools.program_text(), scene, width, height, file);
+  if (ending == "exr") return pair;
+  for (fs::path* file : {&pair.a, &pair.b}) {
+    const fs::path exr = *file;
+    file->replace_extension(ending);
+    run({find_program("oiiotool"), exr, "-d", "uint8", "-o", *file});
+  }
+  return pair;
+}
+
+ProcessResult compare_pair(const Tools& tools, const Pair& pair,
+                           const std::vector<std::string>& more) {
+  return compare(tools.program_text(), pair.a, pair.b, more);
+}
+
+}  // namespace
+
+void add_comparison_goals(const Tools& tools, Goals& goals) {
+  const auto hd = std::make_shared<Pair>(rendered(tools, "hd", 1920, 1080, "exr"));
+  goals.add({"compare.all_metrics", "all metrics of 1920 x 1080", "s",
+             "max_abs alone, which reads them", false, 2, 7, 3, [=] {
+               return Round{compare_pair(tools, *hd, {"--metrics=all"}).seconds,
+                            compare_pair(tools, *hd, {"--metrics=max_abs"}).seconds};
+             }});
+  const fs::path flip = find_program("flip");
+  for (const bool is_hdr : {false, true}) {
+    const std::string id = is_hdr ? "compare.flip.hdr" : "compare.flip.ldr";
+    if (flip.empty() || (!is_hdr && find_program("oiiotool").empty())) {
+      goals.leave_out(id, "no program 'flip' on PATH: NVIDIA's tool, built from its source");
+      continue;
+    }
+    const auto pair =
+        is_hdr ? hd : std::make_shared<Pair>(rendered(tools, "flip", 1920, 1080, "png"));
+    goals.add({id, fmt::format("{} of 1920 x 1080, one thread", is_hdr ? "HDR-FLIP" : "LDR-FLIP"),
+               "s", "NVIDIA's FLIP, its processor time", true, 12, 7, 3, [=] {
+                 const ProcessResult theirs = run(
+                     {flip, "-r", pair->b, "-t", pair->a, "-nexm", "-nerm", "-d", tools.scratch});
+                 const ProcessResult ours = compare_pair(
+                     tools, *pair,
+                     {is_hdr ? "--metrics=flip.hdr" : "--metrics=flip.ldr", "--threads", "1"});
+                 return Round{ours.cpu_seconds, theirs.cpu_seconds};
+               }});
+  }
+  const int processors = oneapi::tbb::info::default_concurrency();
+  goals.add({"compare.folder", "1000 pairs of 256 x 256, wall time", "s",
+             "the processors' time, divided among them", true, 0.95, 3, 1, [=] {
+               const fs::path folder = tools.scratch / "folder";
+               if (!fs::exists(folder)) {
+                 const Pair one = rendered(tools, "small", 256, 256, "exr");
+                 for (const auto& [name, file] : {std::pair{"a", one.a}, {"b", one.b}}) {
+                   fs::create_directories(folder / name);
+                   for (int i = 0; i < 1000; ++i)
+                     fs::copy_file(file, folder / name / fmt::format("{:04}.exr", i));
+                 }
+               }
+               const ProcessResult all = compare_pair(tools, {folder / "a", folder / "b"}, {});
+               return Round{all.seconds, all.cpu_seconds / processors};
+             }});
+}
+
+}  // namespace lobelia::bench

@@ -1,0 +1,202 @@
+// Kernels beside POV-Ray's tracing, beside a loop written by hand, and on several threads.
+#include <fmt/format.h>
+#include <hwy/highway.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <queue>
+#include <regex>
+
+#include "bench/goals.hpp"
+#include "bench/hand_written.hpp"
+#include "bench/sections.hpp"
+#include "core/files.hpp"
+#include "core/threads.hpp"
+#include "renderer/fused.hpp"
+#include "renderer/render.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSide = 1024;
+
+struct InstructionSet {
+  const char *name, *title;
+  std::int64_t targets;
+  HandWritten::Set set;
+};
+constexpr InstructionSet kSets[] = {
+    {"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3, HandWritten::Set::kAvx2},
+    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3, HandWritten::Set::kAvx512}};
+
+Scene head_on(std::string_view lobe, int side) {
+  Scene scene = read_scene(scene_file("head_on"));
+  scene.film.width = scene.film.height = side;
+  scene.materials[0].highlight.lobe = *find_lobe(lobe);
+  return scene;
+}
+
+/// One picture by one thread into memory that was used before.
+class OneThread {
+ public:
+  OneThread(const Scene& scene, std::int64_t targets) : image_(kSide, kSide) {
+    hwy::SetSupportedTargetsForTest(targets);
+    renderer_ =
+        std::make_unique<FusedRenderer>(scene, make_plan(scene, EffectPolicy::kAsCalledFor));
+    hwy::SetSupportedTargetsForTest(0);
+  }
+  double seconds() {
+    return seconds_of([&] { renderer_->render_rows(0, kSide, image_.values().data()); });
+  }
+
+ private:
+  std::unique_ptr<FusedRenderer> renderer_;
+  Image image_;
+};
+
+/// The "Trace Time" of POV-Ray's statistics, for the same picture by one thread.
+class PovRayTrace {
+ public:
+  PovRayTrace(const Tools& tools, const Scene& scene) : input_(tools.scratch / "povray.in") {
+    const fs::path file = tools.scratch / "povray.xml";
+    write_file(file, scene_to_xml(scene));
+    run({tools.program_text(), "reference", file, "--engine", "povray", "--threads", "1", "-q",
+         "-o", tools.scratch / "povray.exr", "--keep-input", input_});
+    for (const fs::directory_entry& entry : fs::directory_iterator(input_))
+      if (entry.path().extension() == ".ini") {
+        const std::string text = read_file(entry.path(), 1 << 20);
+        write_file(entry.path(), std::regex_replace(text, std::regex("Statistic_Console=off"),
+                                                    "Statistic_Console=on"));
+      }
+  }
+  double seconds() const {
+    ProcessOptions options;
+    options.working_directory = input_;
+    const ProcessResult result = run_process({"/bin/sh", "povray.sh"}, options);
+    std::smatch found;
+    if (result.exit_code != 0 ||
+        !std::regex_search(result.output_tail, found,
+                           std::regex(R"(Trace Time:.*\(([0-9.]+) seconds\))")))
+      throw std::runtime_error("POV-Ray tells no time of tracing");
+    return std::stod(found[1]);
+  }
+
+ private:
+  fs::path input_;
+};
+
+/// Seconds until the last of `cores` ends, if each takes the next task when it is free.
+double makespan(const std::vector<double>& tasks, int cores) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free(
+      {}, std::vector<double>(std::size_t(cores)));
+  double end = 0;
+  for (const double task : tasks) {
+    const double done = free.top() + task;
+    free.pop();
+    free.push(done);
+    end = std::max(end, done);
+  }
+  return end;
+}
+
+/// Seconds that the scheduler takes for a task of its own, with one thread.
+double task_overhead() {
+  constexpr int kTasks = 10000;
+  std::atomic<int> ran{0};
+  const double seconds = seconds_of([&] {
+    ThreadLimit(1).run([&] {
+      oneapi::tbb::parallel_for(
+          0, kTasks, [&](int) { ++ran; }, oneapi::tbb::simple_partitioner());
+    });
+  });
+  return seconds / ran;
+}
+
+/// A schedule of 64 cores, from times of the renderer's tasks that were taken by one thread.
+void add_simulated_goal(Goals& goals, const std::shared_ptr<const Scene>& scene) {
+  constexpr int kCores = 64;
+  const int side = scene->film.width;
+  const auto renderer =
+      std::make_shared<FusedRenderer>(*scene, make_plan(*scene, EffectPolicy::kAsCalledFor));
+  const auto image = std::make_shared<Image>(side, side);
+  goals.add({fmt::format("threads.simulated.{}", side),
+             fmt::format("{0} cores, {1} x {1}, times their number", kCores, side), "s",
+             "one thread; the cores are simulated", true, 0.9, 15, 7, [=] {
+               const int rows = FusedRenderer::rows_of_task(side);
+               const double overhead = task_overhead();
+               std::vector<double> tasks;
+               for (int y = 0; y < side; y += rows)
+                 tasks.push_back(seconds_of([&] {
+                   renderer->render_rows(y, std::min(side, y + rows),
+                                         image->values().data() + std::size_t(3) * side * y);
+                 }));
+               double one = 0;
+               for (double& task : tasks) one += task, task += overhead;
+               return Round{kCores * makespan(tasks, kCores), one};
+             }});
+}
+
+}  // namespace
+
+void add_kernel_goals(const Tools& tools, Goals& goals) {
+  const bool has_povray = !find_program("povray").empty();
+  std::shared_ptr<PovRayTrace> povray;
+  if (has_povray) povray = std::make_shared<PovRayTrace>(tools, head_on("cosine", kSide));
+  for (const InstructionSet& set : kSets) {
+    if (!(hwy::SupportedTargets() & set.targets & -set.targets & (HWY_AVX2 | HWY_AVX3))) {
+      goals.leave_out(fmt::format("kernel.{}", set.name), "this processor does not have it");
+      continue;
+    }
+    const auto cosine = std::make_shared<OneThread>(head_on("cosine", kSide), set.targets);
+    if (povray)
+      goals.add({fmt::format("kernel.{}.cosine", set.name),
+                 fmt::format("head-on, cosⁿ, 1024 x 1024, {}", set.title), "s", "POV-Ray's tracing",
+                 true, 100, 5, 3, [=] {
+                   return Round{cosine->seconds(), povray->seconds()};
+                 }});
+    else
+      goals.leave_out(fmt::format("kernel.{}.cosine", set.name), "no POV-Ray here");
+    const auto cs16 = std::make_shared<OneThread>(head_on("cs16", kSide), set.targets);
+    const auto by_hand = std::make_shared<HandWritten>(set.set, kSide);
+    goals.add({fmt::format("kernel.{}.cs16", set.name),
+               fmt::format("head-on, cs16, 1024 x 1024, {}", set.title), "s",
+               "a loop written by hand", true, 0.75, 25, 9, [=] {
+                 return Round{cs16->seconds(), by_hand->seconds()};
+               }});
+    goals.add({fmt::format("kernel.{}.by_hand", set.name),
+               fmt::format("the loop written by hand, {}", set.title), "s",
+               "its arithmetic and stores alone", true, 0.8, 25, 9, [=] {
+                 return Round{by_hand->seconds(), by_hand->roofline_seconds()};
+               }});
+  }
+}
+
+void add_thread_goals(const Tools&, Goals& goals) {
+  const int processors = oneapi::tbb::info::default_concurrency();
+  for (const int side : {1024, 4096}) {
+    const auto scene = std::make_shared<Scene>(head_on("cosine", side));
+    // Every pixel of the disc is computed.
+    scene->materials[0].diffuse_reflectance = {0.5, 0.5, 0.5};
+    const auto seconds = [scene](int threads) {
+      RenderOptions options;
+      options.threads = threads;
+      return render(*scene, options).render_seconds;
+    };
+    goals.add({fmt::format("threads.{}", side),
+               fmt::format("{0} threads, {1} x {1}, times their number", processors, side), "s",
+               "one thread", true, 0.93, 15, 7, [=] {
+                 // Untimed: pictures that come after other goals pay for memory and threads that the next ones find.
+                 for (const int threads : {1, processors}) seconds(threads);
+                 const double one = seconds(1);
+                 return Round{processors * seconds(processors), one};
+               }});
+    add_simulated_goal(goals, scene);
+  }
+}
+
+}  // namespace lobelia::bench

@@ -1,0 +1,87 @@
+// The goals of scale: crowds of spheres, large pictures and large grids.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench/goals.hpp"
+#include "bench/inputs.hpp"
+#include "core/files.hpp"
+#include "renderer/render.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kCrowdSide = 256, kTinyCells = 1000;
+
+/// Seconds of a picture, without planning and building.
+double render_seconds(const Scene& scene) {
+  Scene twice = scene;
+  twice.sampler.sample_count = 1;
+  const double one = render(twice, {}).render_seconds;
+  twice.sampler.sample_count = 5;
+  return (render(twice, {}).render_seconds - one) / 4;
+}
+
+/// A farm of a thousand tiny cells into a new directory, from nothing.
+ProcessResult tiny_farm(const Tools& tools, const fs::path& out) {
+  std::string text = grid_of_models(kTinyCells / 10);
+  text.insert(text.find("<axis"), "<film width=\"8\" height=\"8\"/>");
+  write_file(tools.scratch / "tiny.xml", text);
+  return run({tools.program_text(), "farm", tools.scratch / "tiny.xml", "-q", "-o", out});
+}
+
+}  // namespace
+
+void add_scale_goals(const Tools& tools, Goals& goals) {
+  // Scenes of 1e3, 1e5 and 4e6 spheres. From 1e5 to 4e6, log N grows 0.8 times as much as from 1e3 to 1e5.
+  const auto crowds = std::make_shared<std::vector<Scene>>();
+  goals.add(
+      {"scale.crowd", "a ray's growth from 1e5 to 4e6 spheres", "s",
+       "that of a logarithm, by 1e3 to 1e5", false, 1.5, 5, 0, [=] {
+         if (crowds->empty())
+           for (const auto& lattice : {std::array{10, 10, 10}, {50, 50, 40}, {200, 200, 100}})
+             crowds->push_back(crowd(lattice, kCrowdSide));
+         std::vector<double> seconds;
+         for (const Scene& scene : *crowds)
+           seconds.push_back(render_seconds(scene) / (kCrowdSide * kCrowdSide));
+         const auto decades = [&](int i) {
+           return std::log(double((*crowds)[i + 1].spheres.size()) /
+                           double((*crowds)[i].spheres.size()));
+         };
+         return Round{seconds[2] - seconds[1], (seconds[1] - seconds[0]) * decades(1) / decades(0)};
+       }});
+  const std::string program = tools.program_text();
+  goals.add({"scale.large_picture", "lobelia render, 16384 x 16384: memory", "GiB", "1 GiB", false,
+             1, 1, 0, [=] {
+               const ProcessResult result =
+                   render_file(program, "head_on", 16384, 16384, tools.scratch / "large.exr");
+               return Round{double(result.peak_memory_bytes) / (1 << 30), 1};
+             }});
+  const int cells = tools.quick ? 15000 : 150000;
+  goals.add({"scale.plan", fmt::format("lobelia farm --dry-run of {} cells", cells), "s",
+             fmt::format("{:g} s", cells / 15000.0), false, 1, 3, 3, [=] {
+               const fs::path grid = tools.scratch / "large.xml";
+               write_file(grid, grid_of_models(cells / 10));
+               const ProcessResult result =
+                   run({program, "farm", grid, "--dry-run", "-q", "-o", tools.scratch / "plan"});
+               return Round{result.seconds, cells / 15000.0};
+             }});
+  goals.add({"scale.own_cost", fmt::format("a farm of {} tiny cells: time a result", kTinyCells),
+             "s", "1 ms", false, 1, 3, 1, [=, farms = 0]() mutable {
+               const ProcessResult farm =
+                   tiny_farm(tools, tools.scratch / fmt::format("tiny_{}", ++farms));
+               // Each cell has four results: two pictures, a comparison and a profile.
+               return Round{farm.seconds / (4.0 * kTinyCells), 1e-3};
+             }});
+  goals.add({"scale.status", fmt::format("lobelia farm status of {} cells", kTinyCells), "s", "1 s",
+             false, 1, 3, 1, [=] {
+               const fs::path out = tools.scratch / "looked_at";
+               if (!fs::exists(out)) tiny_farm(tools, out);
+               return Round{run({program, "farm", "status", out}).seconds, 1};
+             }});
+}
+
+}  // namespace lobelia::bench

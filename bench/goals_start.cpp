@@ -1,0 +1,59 @@
+// The start of the program: beside an empty one with the same libraries, and beside POV-Ray's whole command.
+#include <fmt/format.h>
+
+#include "bench/goals.hpp"
+#include "bench/sections.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+double seconds_for(const std::vector<std::string>& command, const ProcessOptions& options = {}) {
+  constexpr int kRuns = 5;
+  std::vector<double> all;
+  for (int i = 0; i < kRuns; ++i) {
+    const ProcessResult result = run_process(command, options);
+    if (result.exit_code != 0)
+      throw std::runtime_error(
+          fmt::format("{} ends with exit code {}", command[0], result.exit_code));
+    all.push_back(result.seconds);
+  }
+  return summary(all).median;
+}
+
+}  // namespace
+
+void add_start_goals(const Tools& tools, Goals& goals) {
+  const std::string program = tools.program_text();
+  // Neither command loads a module, so this is all that they use. (LD_TRACE_LOADED_OBJECTS would skip relocations and
+  // the libraries' own initialisers.)
+  const std::vector<std::string> loading{
+      std::filesystem::read_symlink("/proc/self/exe").replace_filename("bench_empty").string()};
+  goals.add({"start.version", "lobelia --version", "s", "an empty program with its libraries",
+             false, 1, 9, 5, [=] {
+               return Round{seconds_for({program, "--version"}), seconds_for(loading)};
+             }});
+  const auto render = [=](int side) {
+    return render_command(program, "head_on", side, side, tools.scratch / "start.exr");
+  };
+  goals.add({"start.render", "lobelia render, 64 x 64", "s", "an empty program with its libraries",
+             false, 1, 9, 5, [=] {
+               return Round{seconds_for(render(64)), seconds_for(loading)};
+             }});
+  if (find_program("povray").empty()) {
+    goals.leave_out("start.whole", "no POV-Ray here");
+    return;
+  }
+  goals.add({"start.whole", "lobelia render, 256 x 256", "s", "POV-Ray's whole command", true, 40,
+             9, 5, [=] {
+               const std::filesystem::path place = tools.scratch / "whole.in";
+               if (!std::filesystem::exists(place))
+                 run({program, "reference", scene_file("head_on"), "--engine", "povray", "-q", "-o",
+                      tools.scratch / "whole.exr", "--keep-input", place, "--width", "256",
+                      "--height", "256"});
+               ProcessOptions there;
+               there.working_directory = place;
+               return Round{seconds_for(render(256)), seconds_for({"/bin/sh", "povray.sh"}, there)};
+             }});
+}
+
+}  // namespace lobelia::bench

@@ -1,0 +1,46 @@
+#include "core/module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/host.hpp"
+#include "core/no_resources.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+
+fs::path find_companion(std::string_view name) {
+  // Looked up once, because the library's name may be relative to the directory that the program began in.
+  static const std::vector<fs::path> places = [] {
+    const fs::path file = own_file(), here = file.parent_path(), above = here.parent_path();
+    if (file == fs::read_symlink("/proc/self/exe")) return std::vector{here, above / "lib/lobelia"};
+    // Debian has libraries in lib/ARCHITECTURE.
+    return std::vector{here, here / "lobelia", above / "lobelia"};
+  }();
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place / name)) return place / name;
+  return {};
+}
+
+fs::path companion_file(const char* name) {
+  if (fs::path found = find_companion(name); !found.empty()) return found;
+  throw Error(ExitCode::kInternal, fmt::format("{} is neither beside {} nor in ../lib/lobelia",
+                                               name, own_file().string()));
+}
+
+void* Module::find(const char* name) {
+  std::call_once(once_, [this] {
+    if (require_room_) require_room_();
+    handle_ = ::dlopen(companion_file(file_).c_str(), RTLD_LAZY | RTLD_LOCAL);
+    if (!handle_) throw failure_of(title_, std::runtime_error(::dlerror()), ExitCode::kInternal);
+  });
+  void* const found = ::dlsym(handle_, name);
+  if (!found) throw Error(ExitCode::kInternal, fmt::format("{}: {}", title_, ::dlerror()));
+  return found;
+}
+
+}  // namespace lobelia

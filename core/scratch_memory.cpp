@@ -1,0 +1,66 @@
+#include "core/scratch_memory.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+
+#include "core/descriptor.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::size_t kMostLookedAt = std::size_t{64} << 20;
+
+std::atomic<std::size_t> g_least{0};  ///< bytes of a piece in a file; 0: none is
+std::atomic<std::size_t> g_looked_at{0};
+
+struct Pieces {
+  std::mutex mutex;
+  std::map<void*, std::size_t> sizes;
+};
+
+Pieces& pieces() {
+  static auto* all = new Pieces;  // some pictures live until the process ends
+  return *all;
+}
+
+}  // namespace
+
+void keep_large_pieces_in_files(std::size_t least) { g_least = least; }
+
+void looked_at(std::size_t bytes) {
+  if (g_least == 0 || (g_looked_at += bytes) < kMostLookedAt) return;
+  g_looked_at = 0;
+  const std::lock_guard lock(pieces().mutex);
+  // The file keeps what is in a shared mapping, also what was written.
+  for (const auto& [memory, size] : pieces().sizes) ::madvise(memory, size, MADV_DONTNEED);
+}
+
+void* map_file(std::size_t bytes) {
+  if (g_least == 0 || bytes < g_least) return nullptr;
+  const char* directory = std::getenv("TMPDIR");
+  const Descriptor file(::open(directory && *directory ? directory : "/tmp",
+                               O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
+  // Without room for all of it, a write would end the process.
+  if (!file || ::posix_fallocate(file.get(), 0, off_t(bytes)) != 0) return nullptr;
+  void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
+  if (memory == MAP_FAILED) return nullptr;
+  const std::lock_guard lock(pieces().mutex);
+  pieces().sizes.emplace(memory, bytes);
+  return memory;
+}
+
+bool unmap_file(void* memory) {
+  const std::lock_guard lock(pieces().mutex);
+  const auto found = pieces().sizes.find(memory);
+  if (found == pieces().sizes.end()) return false;
+  ::munmap(memory, found->second);
+  pieces().sizes.erase(found);
+  return true;
+}
+
+}  // namespace lobelia

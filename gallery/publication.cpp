@@ -1,0 +1,142 @@
+#include "gallery/publication.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "gallery/publisher.hpp"
+#include "gallery/shown_farm.hpp"
+#include "gallery/single_file.hpp"
+#include "gallery/zip_file.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Limits on float pictures and maps, which GalleryOptions::share_of_bytes scales down.
+constexpr double kBytesOfPixels = 40 << 20, kBytesOfComparison = 512 << 10;
+
+enum class Form { kFolder, kZip, kPage };
+
+Form form_of(const fs::path& out) {
+  const std::string ending = lower_case(out.extension().string());
+  return ending == ".zip" ? Form::kZip : ending == ".html" ? Form::kPage : Form::kFolder;
+}
+
+[[noreturn]] void refuse(const fs::path& out, const std::string& why) {
+  throw Error(ExitCode::kOutput, fmt::format("{}: {}", printable_path(out.string()), why));
+}
+
+bool is_our_page(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(4096, '\0');
+  file.read(begin.data(), std::streamsize(begin.size()));
+  return begin.find(kSingleFileMark) != begin.npos;
+}
+
+/// Refuses what is there and is not ours.
+void check_place(const fs::path& run, const fs::path& out, Form form) {
+  std::error_code error;
+  const fs::path real_run = fs::canonical(run, error), real_out = fs::weakly_canonical(out, error);
+  if (!real_run.empty() && std::ranges::mismatch(real_run, real_out).in1 == real_run.end())
+    refuse(out, "is RUN or in it, which publishing must not change; give another name");
+  const fs::file_status status = fs::symlink_status(out, error);
+  if (!fs::exists(status)) return;
+  if (fs::is_symlink(status)) refuse(out, "is a link, which is not followed; give another name");
+  const bool is_ours = form == Form::kFolder
+                           ? fs::is_directory(status) && (kind_of_site(out) == SiteKind::kGallery ||
+                                                          fs::is_empty(out, error))
+                           : fs::is_regular_file(status) &&
+                                 (form == Form::kZip ? is_our_zip(out) : is_our_page(out));
+  if (!is_ours)
+    refuse(out, "is there already, and is not a gallery that was published; give another name");
+  if (form == Form::kFolder && fs::exists(out / "farm.json", error))
+    refuse(out, "is the directory of a farm, which publishing must not change");
+}
+
+/// "gallery" for "out/gallery/" and "out/gallery.zip".
+fs::path without_slash(const fs::path& out) { return out.has_filename() ? out : out.parent_path(); }
+
+PublishedGallery write_folder(const fs::path& run, GalleryOptions options, const fs::path& out) {
+  std::error_code error;
+  if (fs::exists(out, error)) return write_gallery(run, options);
+  const fs::path parent = out.has_parent_path() ? out.parent_path() : fs::path(".");
+  make_directories(parent);
+  const TemporaryDirectory unfinished(parent);
+  options.is_part = true;
+  options.site = unfinished.path() / "site";
+  PublishedGallery made = write_gallery(run, options);
+  const EndDelay delay;
+  throw_if_interrupted();
+  fs::rename(options.site, out, error);
+  if (error) refuse(out, error.message());
+  interrupts_come_too_late();
+  made.index = out / "index.html";
+  return made;
+}
+
+PublishedGallery write_page(const fs::path& run, GalleryOptions options, const fs::path& out) {
+  const records::Farm farm = read_farm(run).record;
+  const std::size_t count = options.only_cell.empty() ? farm.cells.size() : 1;
+  const std::string instead = "publish a folder, with --metrics-only --packed if it is to be small";
+  if (count > kMostCellsOfPage)
+    refuse(out, fmt::format("one file holds at most {} cells, and the run has {}: {}",
+                            kMostCellsOfPage, count, instead));
+  options.only_cells = true;
+  options.for_host = false;
+  options.packed = false;
+  options.is_part = true;
+  options.share_of_bytes = std::min(
+      1.0, kBytesOfPixels / (kBytesOfComparison * double(count * farm.engines.size() + 1)));
+  const TemporaryDirectory site;
+  options.site = site.path();
+  PublishedGallery made = write_gallery(run, options);
+  const std::string page =
+      single_file(site.path(), options.title.empty() ? made.title : options.title,
+                  options.only_cell.empty() ? "" : "cells/" + options.only_cell + "/index.html");
+  if (page.size() > kMostBytesOfPage)
+    refuse(out, fmt::format("one file holds at most {} MiB, and this would have {}: {}",
+                            kMostBytesOfPage >> 20, page.size() >> 20, instead));
+  write_file(out, page, AtLink::kReplace);
+  interrupts_come_too_late();
+  made.index = out;
+  return made;
+}
+
+PublishedGallery write_zipped(const fs::path& run, GalleryOptions options, const fs::path& out) {
+  const TemporaryDirectory site;
+  options.is_part = true;
+  options.site = site.path();
+  PublishedGallery made = write_gallery(run, options);
+  const std::string stem = out.stem().string();
+  const bool may_be_name =
+      is_plain_name(stem) && stem.find('\\') == stem.npos && escape_invalid_utf8(stem) == stem;
+  write_zip(site.path(), may_be_name ? stem : "gallery", out);
+  interrupts_come_too_late();
+  made.index = out;
+  return made;
+}
+
+}  // namespace
+
+PublishedGallery write_publication(const fs::path& run, const GalleryOptions& given) {
+  GalleryOptions options = given;
+  const fs::path out = without_slash(options.site);
+  const Form form = form_of(out);
+  if (!options.only_cell.empty() && form != Form::kPage)
+    throw Error(ExitCode::kUsage, "--cell is for one HTML file: give -o OUT.html");
+  check_place(run, out, form);
+  options.for_host = true;
+  if (form == Form::kFolder) return write_folder(run, std::move(options), out);
+  if (out.has_parent_path()) make_directories(out.parent_path());
+  require_writable(out);
+  return form == Form::kZip ? write_zipped(run, std::move(options), out)
+                            : write_page(run, std::move(options), out);
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,96 @@
+#include "renderer/highlight_reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/constants.hpp"
+#include "renderer/lobe_properties.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Float32 lobes are exactly 0 below the smallest normal number, 1.18e-38 (lanes-inl.hpp).
+constexpr double kNothing32 = 1e-39;
+/// Rounds to 0 in float32.
+constexpr double kBlack = 0x1p-151;
+/// More than the kernels' s is wrong by, in float32 and where coordinates are below kFarthest radii.
+constexpr double kErrorOfS = 1e-5;
+constexpr double kFarthest = 1e6;
+
+/// An eye or a light, as a sphere sees it.
+class Onlooker {
+ public:
+  Onlooker(Vec3 offset, double radius)
+      : distance_(length(offset) / radius), to_it(1 / length(offset) * offset) {}
+  explicit Onlooker(Vec3 direction) : distance_(0), to_it(direction) {}
+
+  bool is_near() const { return distance_ != 0 && !(distance_ > 1 + 1e-6); }
+  /// Bound of the angle between the directions to it from the centre and from a point whose normal is within `angle`
+  /// of the first.
+  double parallax(double angle) const {
+    if (distance_ == 0) return 0;
+    const double seen = std::acos(1 / distance_);  // beyond, the point is turned away
+    return angle >= seen ? std::asin(1 / distance_)
+                         : std::atan2(std::sin(angle), distance_ - std::cos(angle));
+  }
+
+ private:
+  double distance_;  ///< in radii; 0: infinitely far
+
+ public:
+  const Vec3 to_it;
+};
+
+}  // namespace
+
+std::optional<NormalCap> highlight_reach(const Highlight& highlight, const Sphere& sphere, Vec3 eye,
+                                         const Lamp& lamp, double brightest) {
+  if (highlight.lobe.formula || info(highlight.model).has_shadowing) return std::nullopt;
+  const Onlooker viewer(eye - sphere.center, sphere.radius);
+  const Onlooker light = lamp.is_distant ? Onlooker(-lamp.direction)
+                                         : Onlooker(lamp.position - sphere.center, sphere.radius);
+  if (viewer.is_near() || light.is_near()) return std::nullopt;
+  for (const Vec3 point : {sphere.center, eye, lamp.position})
+    if (!(length(point) < kFarthest * sphere.radius)) return std::nullopt;
+  if (!lamp.is_distant) {
+    const double nearest = length(lamp.position - sphere.center) - sphere.radius;
+    brightest /= nearest * nearest;
+  }
+  const double nothing = std::min(kNothing32, kBlack / std::max(brightest, 1.0));
+  const double angle = lobe_angle_at(prepare(highlight.lobe, highlight.exponent), nothing);
+  const double s = versine(angle) + kErrorOfS;
+
+  const Vec3 sum = light.to_it + viewer.to_it;
+  const double sum_length = length(sum);
+  if (!(sum_length > 1e-3)) return std::nullopt;
+  const Vec3 axis = 1 / sum_length * sum;
+  const double to_viewer = angle_between(axis, viewer.to_it);
+  const double to_light = angle_between(axis, light.to_it);
+  // A smaller cap has less parallax, which makes it smaller again.
+  double reach = kRightAngle;
+  for (int step = 0; step < 6; ++step) {
+    const double moved = 2 * std::sin(viewer.parallax(to_viewer + reach) / 2) +
+                         2 * std::sin(light.parallax(to_light + reach) / 2);
+    if (!(moved < sum_length)) return std::nullopt;
+    double own = std::acos(std::max(0.0, 1 - s));
+    if (info(highlight.model).angle == LobeAngle::kReflection) {
+      const double cos_g = (sum_length - moved) / 2;
+      const double squared = s / (2 * cos_g * cos_g);
+      if (!(squared < 1)) return std::nullopt;
+      own = std::asin(std::sqrt(squared));
+    }
+    reach = std::min(reach, own + std::asin(moved / sum_length) + 1e-6);
+  }
+  if (!(reach < kRightAngle - 1e-3)) return std::nullopt;
+  return NormalCap{axis, reach};
+}
+
+Sphere ball_around(const NormalCap& cap, const Sphere& sphere) {
+  Sphere ball = sphere;
+  ball.center = sphere.center + sphere.radius * std::cos(cap.angle) * cap.axis;
+  ball.radius = sphere.radius * std::sin(cap.angle);
+  return ball;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/image_io.hpp"
+#include "gallery/cell_chunk.hpp"
+#include "gallery/gallery.hpp"
+#include "gallery/plain_png.hpp"
+#include "tests/gallery/fake_farm.hpp"
+#include "tests/gallery/site.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+std::size_t count_files(const fs::path& directory) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(directory))
+    count += entry.is_regular_file();
+  return count;
+}
+
+class PackedGallery : public ::testing::Test {
+ protected:
+  PackedGallery() {
+    options_.site = elsewhere_.path() / "site";
+    options_.metrics_only = true;
+  }
+  void publish(std::optional<bool> packed) {
+    options_.packed = packed;
+    write_gallery(farm_.directory(), options_);
+  }
+
+  FakeFarm farm_;
+  TemporaryDirectory elsewhere_;
+  GalleryOptions options_;
+};
+
+TEST_F(PackedGallery, adds_no_file_for_a_cell) {
+  publish(true);
+  const std::size_t before = count_files(options_.site);
+  farm_.add_cell("one_more", "pass", {});
+  farm_.write();
+  publish(true);
+  EXPECT_EQ(count_files(options_.site), before);
+}
+
+TEST_F(PackedGallery, removes_the_other_layout) {
+  publish(false);
+  EXPECT_TRUE(fs::exists(options_.site / "cells" / FakeFarm::kPass / "index.html"));
+  publish(true);
+  EXPECT_FALSE(fs::exists(options_.site / "cells"));
+  EXPECT_TRUE(fs::exists(options_.site / "cell.html"));
+  publish(false);
+  EXPECT_FALSE(fs::exists(options_.site / "cell.html"));
+  EXPECT_FALSE(fs::exists(options_.site / "packed"));
+}
+
+TEST_F(PackedGallery, is_for_many_cells) {
+  publish(std::nullopt);
+  EXPECT_FALSE(fs::exists(options_.site / "cell.html"));
+}
+
+TEST_F(PackedGallery, has_no_link_that_leads_nowhere) {
+  publish(true);
+  const Site site(options_.site);
+  EXPECT_EQ(site.pages().size(), 2u);
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+  EXPECT_THAT(site.active_content(), IsEmpty());
+}
+
+TEST(PlainPng, reads_what_the_farm_writes_and_nothing_that_is_damaged) {
+  DisplayImage image{37, 23, {}};
+  for (int i = 0; i < 3 * 37 * 23; ++i) image.rgb.push_back(std::uint8_t(i * i / 7));
+  const std::string file = png_bytes(image, {{"Software", "a test"}});
+  const auto read = plain_png(file);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->width, 37);
+  EXPECT_EQ(read->height, 23);
+  EXPECT_EQ(read->rgb, image.rgb);
+  for (std::size_t size = 0; size < file.size() - 12; ++size)
+    EXPECT_FALSE(plain_png(file.substr(0, size))) << size;
+  std::string wide = file;
+  wide[17] = 1;  // claims more pixels than it has
+  EXPECT_FALSE(plain_png(wide));
+  std::string grey = file;
+  grey[25] = 0;
+  EXPECT_FALSE(plain_png(grey));
+}
+
+TEST(CellChunk, takes_markup_apart_without_a_loss) {
+  EXPECT_THAT(pieces_of("<p class=\"a\">one &lt; two</p>rest"),
+              ElementsAre("<p class=\"a\">", "one &lt; two", "</p>", "rest"));
+  EXPECT_THAT(pieces_of("text"), ElementsAre("text"));
+  EXPECT_THAT(pieces_of(""), IsEmpty());
+  EXPECT_THAT(pieces_of("<unfinished"), ElementsAre("<unfinished"));
+}
+
+}  // namespace
+}  // namespace lobelia::gallery

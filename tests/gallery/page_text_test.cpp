@@ -1,0 +1,69 @@
+// Texts of records as pages show them, and the charts of studies that may be published.
+#include "gallery/page_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/svg_chart.hpp"
+#include "gallery/safe_svg.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+TEST(PageText, SetsFormulasAsTheyArePrinted) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"cos^n exceeds cs16 by 1.7e-2 at most", "cosⁿ exceeds cs16 by 1.7 × 10⁻² at most"},
+      {"theta_cr is nearly 6/sqrt(n)", "θ_cr is nearly 6/√n"},
+      {"2 arcsin(sqrt(8/n))", "2 arcsin(√(8/n))"},
+      {"8e+08 times, below 1e-15, 1e-02", "8 × 10⁸ times, below 10⁻¹⁵, 10⁻²"},
+      {"-9.7e-3", "−9.7 × 10⁻³"},
+      {"max(0, 1 - n s / 16)^16", "max(0, 1 − n s / 16)¹⁶"},
+      {"n >= 16, n = 16..1024, 48 x 48", "n ≥ 16, n = 16 to 1024, 48 × 48"},
+      {"start 0.00 ns, parse 286 us", "start 0, parse 286 µs"},
+      {"takes 2764247337825939 s", "takes 2.76 × 10¹⁵ s"},
+      {"4 pi where N.L = 1", "4 π where N·L = 1"},
+      {"a-b.c, e-mail, 1.5, v2.0e", "a-b.c, e-mail, 1.5, v2.0e"}};
+  for (const auto& [record, page] : cases) EXPECT_EQ(math_text(record), page);
+}
+
+TEST(PageText, RaisesWhatUnicodeCannot) {
+  Html html;
+  write_math(html, "2^(-n/2) < theta_cr");
+  EXPECT_EQ(html.str(), "2<sup>−n/2</sup> &lt; θ<sub>cr</sub>");
+}
+
+TEST(PageText, EndsWhateverIsNested) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "sqrt(2^(";
+  EXPECT_GE(math_text(deep).size(), 1u);
+  EXPECT_GE(math_text(std::string(5000, '9') + " s").size(), 1u);
+}
+
+TEST(PageText, HasNoPathOfTheMachine) {
+  EXPECT_EQ(without_paths("lobelia cost /srv/a/oblique_45.xml -o '/tmp/w/gal/cost' -q"),
+            "lobelia cost oblique_45.xml -o 'cost' -q");
+  EXPECT_EQ(without_paths("--out=/a/b/c.exr scenes/x.xml 1/2 https://a.org/b"),
+            "--out=c.exr scenes/x.xml 1/2 https://a.org/b");
+}
+
+TEST(SafeSvg, IsADrawnChartAndNothingThatRuns) {
+  Chart chart;
+  chart.id = "c";
+  chart.title = "It's <a> & b";
+  chart.series = {{"line", {0, 1}, {0, 1}, 1}};
+  const std::string file = draw_chart_file(chart);
+  EXPECT_TRUE(is_safe_svg(file));
+  const std::string end = "</svg>";
+  for (const char* bad :
+       {"<script>alert(1)</script>", "<g onload=\"alert(1)\"/>",
+        "<a href=\"javascript:alert(1)\"/>", "<foreignObject/>",
+        "<rect fill=\"url(http://a.org/x)\"/>", "<!DOCTYPE x>", "<style>@import 'x';</style>",
+        "<image href=\"x\"/>", "<g id='x'/>", "<?xml-stylesheet href='x'?>"}) {
+    std::string changed = file;
+    changed.insert(changed.rfind(end), bad);
+    EXPECT_FALSE(is_safe_svg(changed)) << bad;
+  }
+  EXPECT_FALSE(is_safe_svg(""));
+}
+
+}  // namespace
+}  // namespace lobelia::gallery

@@ -1,0 +1,424 @@
+// A gallery for others tells nothing of the machine, in any form, and RUN stays as it is.
+#include "gallery/publication.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <fstream>
+
+#include "core/base64.hpp"
+#include "core/error.hpp"
+#include "core/sha256.hpp"
+#include "gallery/checked_cell.hpp"
+#include "gallery/publisher.hpp"
+#include "gallery/scrub.hpp"
+#include "records/cost.hpp"
+#include "records/render.hpp"
+#include "tests/gallery/fake_farm.hpp"
+#include "tests/gallery/site.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+const std::string kPlace = "/srv/telltale place/of_me", kHost = "telltale-node7",
+                  kUser = "telltale.user";
+
+std::string content(const fs::path& file) { return read_file(file, std::size_t{1} << 28); }
+
+/// By path below the directory.
+std::map<std::string, std::string> files_below(const fs::path& directory) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(directory))
+    if (entry.is_regular_file())
+      all[entry.path().lexically_relative(directory).string()] = content(entry.path());
+  return all;
+}
+
+std::string inflated(std::string_view bytes, int window_bits) {
+  z_stream stream{};
+  EXPECT_EQ(::inflateInit2(&stream, window_bits), Z_OK);
+  std::string text(std::size_t{1} << 22, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = uInt(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(text.data());
+  stream.avail_out = uInt(text.size());
+  const int result = ::inflate(&stream, Z_FINISH);
+  text.resize(result == Z_STREAM_END ? stream.total_out : 0);
+  ::inflateEnd(&stream);
+  return text;
+}
+
+std::string from_base64(std::string_view text) {
+  std::string bytes;
+  std::uint32_t bits = 0, count = 0;
+  for (const char c : text) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t digit = kDigits.find(c);
+    if (digit == kDigits.npos) break;
+    bits = bits << 6 | std::uint32_t(digit);
+    if ((count += 6) >= 8) bytes += char(bits >> (count -= 8) & 0xff);
+  }
+  return bytes;
+}
+
+/// The text, and what every long run of base64 in it holds, inflated if it is deflated.
+std::string unfolded(const std::string& text) {
+  std::string all = text;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto is_digit = [&](std::size_t at) {
+      return std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '+' ||
+             text[at] == '/';
+    };
+    std::size_t end = i;
+    while (end < text.size() && is_digit(end)) ++end;
+    if (end - i >= 40) {
+      const std::string bytes = from_base64(std::string_view(text).substr(i, end - i));
+      all += bytes + inflated(bytes, MAX_WBITS);
+    }
+    i = end + 1;
+  }
+  return all;
+}
+
+std::uint64_t number_at(std::string_view bytes, std::size_t at, int count) {
+  std::uint64_t number = 0;
+  while (count-- > 0) number = number << 8 | static_cast<unsigned char>(bytes[at + count]);
+  return number;
+}
+
+/// The files below `folder` of a zip, by its list at the end.
+std::map<std::string, std::string> unzipped(std::string_view zip,
+                                            std::string_view folder = "site/") {
+  std::map<std::string, std::string> files;
+  const std::size_t end = zip.rfind("PK\x05\x06");
+  std::size_t at = number_at(zip, end + 16, 4);
+  for (auto count = number_at(zip, end + 10, 2); count > 0; --count) {
+    EXPECT_EQ(zip.substr(at, 4), "PK\x01\x02");
+    const auto size = number_at(zip, at + 28, 2), packed = number_at(zip, at + 20, 4);
+    const std::string name(zip.substr(at + 46, size));
+    const std::size_t local = number_at(zip, at + 42, 4);
+    EXPECT_EQ(zip.substr(local + 30, size), name);
+    const std::string_view bytes = zip.substr(local + 30 + size, packed);
+    const bool is_stored = number_at(zip, at + 10, 2) == 0;
+    std::string text = is_stored ? std::string(bytes) : inflated(bytes, -MAX_WBITS);
+    EXPECT_EQ(number_at(zip, at + 16, 4),
+              ::crc32(0, reinterpret_cast<const Bytef*>(text.data()), uInt(text.size())));
+    EXPECT_TRUE(name.starts_with(folder)) << name;
+    files[name.substr(folder.size())] = std::move(text);
+    at += 46 + size;
+  }
+  return files;
+}
+
+void require_nothing_told(const std::map<std::string, std::string>& files,
+                          const class TelltaleFarm& farm);
+
+/// A run that tells of its machine wherever a record or a log can.
+class TelltaleFarm : public FakeFarm {
+ public:
+  TelltaleFarm() {
+    farm().command = "lobelia farm '" + kPlace + "/grid.xml' -o " + directory().string();
+    farm().host = records::Host{"abacus", 2, "Linux", kHost};
+    farm().cache = kPlace + "/cache";
+    farm().engines[0].why = "not on " + kHost;
+    write();
+    change<records::Reference>(kPass, "povray.json", [](records::Reference& reference) {
+      reference.command = {"lobelia", "reference", kPlace + "/scene.xml"};
+      reference.engine_commands = {"/opt/telltale/bin/povray +I'" + kPlace + "/scene.pov'"};
+    });
+    write_file(cell_directory(kPass) / "povray.log",
+               "$ /opt/telltale/bin/povray -I/opt/telltale/include\nSaved: \"" + kPlace +
+                   "/a b.exr\" by " + kUser + "@" + kHost + " (pid 4711)\nfile://" +
+                   directory().string() + "/x.pov: ok, see https://povray.org/a/b\n");
+    seal(kPass);
+    change<records::Cell>(kFailed, "cell.json", [](records::Cell& cell) {
+      cell.problems.push_back(
+          {"povray", "stopped on " + kHost + ": " + kPlace + "/x is full", "", 1});
+    });
+  }
+  GalleryOptions options(const fs::path& out) const {
+    GalleryOptions options;
+    options.site = out;
+    options.metrics = some_metrics();
+    options.scrubbed = true;
+    return options;
+  }
+};
+
+void require_nothing_told(const std::map<std::string, std::string>& files,
+                          const TelltaleFarm& farm) {
+  for (const auto& [name, text] : files) {
+    const std::string all = unfolded(text);
+    for (const std::string& secret :
+         {std::string("telltale place"), std::string("/opt/"), std::string("of_me"), kHost,
+          farm.directory().string(), std::string("4711")})
+      EXPECT_EQ(all.find(secret), all.npos) << name << ": " << secret;
+  }
+}
+
+TEST(Publication, tells_nothing_of_the_machine_in_any_file_of_any_form) {
+  const TelltaleFarm farm;
+  const TemporaryDirectory place;
+  const auto before = files_below(farm.directory());
+  for (const bool packed : {false, true})
+    for (const char* out : {"site", "site.zip", "site.html"}) {
+      GalleryOptions options = farm.options(place.path() / (packed ? "packed" : "whole") / out);
+      options.metrics_only = options.packed.emplace(packed);
+      const PublishedGallery made = write_publication(farm.directory(), options);
+      if (fs::path(out).extension() == ".zip") {
+        const fs::path folder = options.site.parent_path() / "site";
+        const auto files = unzipped(content(made.index));
+        require_nothing_told(files, farm);
+        EXPECT_EQ(files, files_below(folder)) << "the folder's files";
+      }
+      EXPECT_TRUE(made.doubts.empty()) << made.doubts[0];
+    }
+  require_nothing_told(files_below(place.path()), farm);
+  EXPECT_EQ(files_below(farm.directory()), before) << "RUN is not changed";
+  const std::string log =
+      content(place.path() / "whole/site/cells" / FakeFarm::kPass / "povray.log");
+  EXPECT_THAT(log, HasSubstr("$ povray "));
+  EXPECT_THAT(log, HasSubstr("Saved: \"a b.exr\" by "));
+  EXPECT_THAT(log, HasSubstr("https://povray.org/a/b"));
+}
+
+TEST(Publication, has_hashes_of_what_it_publishes_and_seals_that_fit) {
+  const TelltaleFarm farm;
+  const TemporaryDirectory place;
+  write_publication(farm.directory(), farm.options(place.path() / "site"));
+  for (const std::string& id : {FakeFarm::kPass, FakeFarm::kDiffers}) {
+    const fs::path folder = place.path() / "site/cells" / id;
+    const auto cell = records::read_record<records::Cell>(folder / "cell.json");
+    for (const records::CellFile& file : cell.files) {
+      if (!fs::exists(folder / file.name)) continue;
+      EXPECT_EQ(hex(sha256_of_file(folder / file.name)), file.sha256) << file.name;
+    }
+  }
+  GalleryOptions all = farm.options(place.path() / "site");
+  all.scrubbed = false;  // --with-host, over what was there
+  write_publication(farm.directory(), all);
+  for (const char* file : {"povray.log", "povray.json", "cell.json"}) {
+    const fs::path name = fs::path("cells") / FakeFarm::kPass / file;
+    EXPECT_EQ(content(place.path() / "site" / name), content(farm.directory() / name));
+  }
+}
+
+TEST(Publication, does_not_make_a_changed_file_right) {
+  const TelltaleFarm farm;
+  const TemporaryDirectory place;
+  write_file(farm.cell_directory(FakeFarm::kPass) / "povray.json",
+             content(farm.cell_directory(FakeFarm::kPass) / "povray.json") + "\n");
+  const PublishedGallery made =
+      write_publication(farm.directory(), farm.options(place.path() / "site"));
+  ASSERT_EQ(made.doubts.size(), 1u);
+  EXPECT_THAT(made.doubts[0], HasSubstr("changed"));
+  EXPECT_THAT(text_of(Site(place.path() / "site").cell(FakeFarm::kPass)),
+              HasSubstr("is not the file that the farm wrote"));
+}
+
+TEST(Publication, names_style_and_script_by_content_and_removes_the_old_ones) {
+  const FakeFarm farm;
+  const TemporaryDirectory place;
+  GalleryOptions options;
+  options.site = place.path() / "site";
+  write_publication(farm.directory(), options);
+  const auto named = [&](std::string_view ending) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(options.site))
+      if (const std::string name = entry.path().filename();
+          name.starts_with("gallery-") && name.ends_with(ending))
+        names.push_back(name);
+    return names;
+  };
+  ASSERT_EQ(named(".js").size(), 1u);
+  ASSERT_EQ(named(".css").size(), 1u);
+  EXPECT_TRUE(fs::exists(options.site / ".nojekyll"));
+  EXPECT_THAT(Site(options.site).bad_links(), IsEmpty());
+  EXPECT_EQ(
+      named(".js")[0],
+      "gallery-" + hex(sha256(content(options.site / named(".js")[0]))).substr(0, 10) + ".js");
+  // As a version with another script would have left it.
+  auto list = records::read_record<records::GalleryList>(options.site / kSiteList);
+  list.files.push_back("gallery-0123456789.js");
+  records::write_record(options.site / kSiteList, list);
+  write_file(options.site / "gallery-0123456789.js", std::string_view("old"));
+  write_publication(farm.directory(), options);
+  EXPECT_EQ(named(".js").size(), 1u);
+  EXPECT_FALSE(fs::exists(options.site / "gallery-0123456789.js"));
+}
+
+TEST(Publication, is_the_same_bytes_for_the_same_run) {
+  const FakeFarm farm;
+  const TemporaryDirectory place;
+  for (const char* ending : {".zip", ".html"}) {
+    GalleryOptions options;
+    std::vector<std::string> bytes;
+    for (const char* folder : {"a", "b"}) {
+      options.site = place.path() / folder / (std::string("site") + ending);
+      write_publication(farm.directory(), options);
+      bytes.push_back(content(options.site));
+    }
+    EXPECT_EQ(bytes[0], bytes[1]) << ending;
+    write_publication(farm.directory(), options);  // its own may be replaced
+  }
+}
+
+TEST(Publication, refuses_what_is_not_its_own) {
+  const FakeFarm farm;
+  const TemporaryDirectory place;
+  const fs::path foreign = place.path() / "foreign";
+  fs::create_directories(foreign);
+  for (const char* name : {"foreign/file", "a.zip", "a.html"})
+    write_file(place.path() / name, std::string_view("mine"));
+  // Photographs have such a list, too; and pictures that were compared have one of ours.
+  for (const char* name : {"photos", "report"}) fs::create_directories(place.path() / name);
+  write_file(place.path() / "photos/gallery.json", std::string_view(R"({"photos":[]})"));
+  records::write_record(place.path() / "report/gallery.json",
+                        records::GalleryList{{"comparison.json", "index.html"}, {}});
+  fs::create_symlink(foreign, place.path() / "link");
+  fs::create_directory(place.path() / "folder.zip");
+  for (const fs::path& out :
+       {foreign, place.path() / "link", place.path() / "a.zip", place.path() / "a.html",
+        place.path() / "folder.zip", place.path() / "photos", place.path() / "report",
+        farm.directory(), farm.directory() / "cells", farm.directory() / "site",
+        farm.directory() / "site.zip", farm.directory() / "cells/new.html"}) {
+    GalleryOptions options;
+    options.site = out;
+    try {
+      write_publication(farm.directory(), options);
+      ADD_FAILURE() << out;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kOutput) << out;
+    }
+  }
+  EXPECT_EQ(content(place.path() / "a.zip"), "mine");
+  EXPECT_EQ(content(place.path() / "photos/gallery.json"), R"({"photos":[]})");
+  for (const char* name : {"index.html", "site", "site.zip", "cells/new.html"})
+    EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
+}
+
+TEST(Publication, in_a_zip_has_plain_names_whatever_the_zip_is_called) {
+  const FakeFarm farm;
+  const TemporaryDirectory place;
+  for (const char* name : {"...zip", "a\\..\\b.zip", "x\xff.zip"}) {
+    GalleryOptions options;
+    options.site = place.path() / name;
+    options.metrics_only = true;
+    write_publication(farm.directory(), options);
+    const auto files = unzipped(content(place.path() / name), "gallery/");
+    EXPECT_TRUE(files.contains("index.html")) << name;
+    for (const auto& [file, text] : files) EXPECT_EQ(file.find(".."), file.npos) << name;
+  }
+}
+
+TEST(Publication, that_fails_leaves_nothing_behind) {
+  FakeFarm farm;
+  const TemporaryDirectory place, elsewhere;
+  const fs::path log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
+  fs::remove(log);
+  write_file(elsewhere.path() / "secret", std::string_view("secret"));
+  fs::create_symlink(elsewhere.path() / "secret", log);
+  farm.seal(FakeFarm::kPass);
+  for (const char* out : {"site", "site.zip", "site.html"}) {
+    GalleryOptions options;
+    options.site = place.path() / out;
+    options.scrubbed = true;
+    EXPECT_THROW(write_publication(farm.directory(), options), Error) << out;
+  }
+  EXPECT_TRUE(fs::is_empty(place.path()));
+}
+
+TEST(Publication, in_one_file_is_small_or_one_cell) {
+  FakeFarm farm;
+  const TemporaryDirectory place;
+  GalleryOptions options;
+  options.site = place.path() / "cell.html";
+  options.only_cell = "phong_rdf_n16";
+  try {
+    write_publication(farm.directory(), options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'phong_rdf-n16'?"));
+  }
+  options.only_cell = FakeFarm::kPass;
+  write_publication(farm.directory(), options);
+  EXPECT_THAT(content(options.site), Not(HasSubstr("data-file=\"index.html\"")));
+  options.only_cell.clear();
+  for (std::size_t i = 0; i <= kMostCellsOfPage; ++i)
+    farm.farm().cells.push_back({"more" + std::to_string(i), "missing", {}});
+  farm.write();
+  try {
+    write_publication(farm.directory(), options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kOutput);
+    EXPECT_THAT(error.what(), HasSubstr("at most 200 cells"));
+    EXPECT_THAT(error.what(), HasSubstr("publish a folder"));
+  }
+}
+
+TEST(Scrub, shortens_paths_and_leaves_what_is_none) {
+  const Scrub scrub({"/data/my runs/one", "/scenes"}, {"node7.example.org"}, {"ada"});
+  for (const auto& [text, shown] : std::vector<std::pair<std::string, std::string>>{
+           {"lobelia cost /srv/a/b.xml -o '/x y/cost' -q", "lobelia cost b.xml -o 'cost' -q"},
+           {"/data/my runs/one/cells/c.exr and /data/my runs/x.xml", "c.exr and x.xml"},
+           {"PATH=/usr/bin:/srv/u/bin", "PATH=bin:bin"},
+           {"-I/usr/include/x", "-Ix"},
+           {"file:///srv/u/a.xml", "file:a.xml"},
+           {"https://a.org/b/c", "https://a.org/b/c"},
+           {"</transform><a href=\"x/y/z\">", "</transform><a href=\"x/y/z\">"},
+           {"// a comment /* and */ 1/2 N.L/(a/b) m/s", "// a comment /* and */ 1/2 N.L/(a/b) m/s"},
+           {"../scenes/oblique_45.xml", "../scenes/oblique_45.xml"},
+           {"reference/data/x.png and W/data", "reference/data/x.png and W/data"},
+           {"cannot open /srv/u/x.", "cannot open x."},
+           {"-o /"
+            "Users/ada --blender ~ada/b/c, ~3 ms",
+            "-o ~ --blender c, ~3 ms"},
+           {"//srv/S/x +I/srv/S/a -isystem/srv/S/b \x1b[31m/srv/S/c", "x +Ia -isystemb \x1b[31mc"},
+           {"\"a\\n/srv/S/x\" …/srv/S/y →/srv/S/z", "\"a\\nx\" …y →z"},
+           {"ssh://ada@node9/srv/S file://node9/srv/S/x", "ssh:S file:x"},
+           {"see https://a.org/x/y?z=/a/b.", "see https://a.org/x/y?z=/a/b."},
+           {"+/-3/4 and / or /", "+/-3/4 and / or /"}})
+    EXPECT_EQ(scrub.without_paths(text), shown);
+  EXPECT_EQ(scrub.log("ada@node7 and node7.example.org, Nevada, pid 12, pid namespace"),
+            "user@host and host, Nevada, pid, pid namespace");
+  EXPECT_EQ(scrub.log("povray[4711]: PIDs 4711, ppid=3; process 2.5 GB, process 3 of 4, sphere[2]"),
+            "povray: PIDs, ppid; process 2.5 GB, process 3 of 4, sphere[2]");
+}
+
+TEST(Scrub, keeps_values_of_an_axis_apart_and_a_broken_seal_broken) {
+  Scrub scrub({});
+  records::Axis axis{
+      "scene",
+      {{"/a/x.xml", ""}, {"/b/x.xml", ""}, {"x.xml", ""}, {"s /c/y.xml", ""}, {"s /d/y.xml", ""}}};
+  scrub.keep_apart({axis});
+  records::Farm farm;
+  farm.axes = {axis};
+  const std::string record = scrub.record(records::record_text(farm));
+  EXPECT_THAT(record, HasSubstr("\"x.xml 2\""));
+  EXPECT_THAT(record, HasSubstr("\"x.xml 3\""));
+  EXPECT_THAT(record, HasSubstr("\"s y.xml 2\""));
+  records::Cell cell;
+  cell.id = "a";
+  cell.status = "pass";
+  cell.axes = {{"scene", "/c/y.xml"}};
+  std::string text = records::record_text(cell);
+  records::Origin origin;
+  EXPECT_THAT(scrub.record(text), HasSubstr("\"y.xml\""));
+  records::parse_record<records::Cell>(scrub.record(text), "", &origin);
+  EXPECT_EQ(origin.seal, records::Origin::Seal::kFits);
+  text.replace(text.find("pass"), 4, "diff");
+  EXPECT_THROW(records::parse_record<records::Cell>(scrub.record(text), ""), Error);
+  EXPECT_EQ(scrub.record("[[["), "[[[");
+}
+
+}  // namespace
+}  // namespace lobelia::gallery
