@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/text.hpp"
 #include "records/bench.hpp"
 #include "records/record.hpp"
 #include "tests/cli/run_lobelia.hpp"
@@ -52,8 +53,8 @@ TEST_F(BenchTools, LeaveARecordAloneThatIsNone) {
 
 TEST_F(BenchTools, FindAProgramThatBecameSlowerAndSayWhichCommand) {
   const auto slow = directory_.path() / "slow";
-  write_file(slow, fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && sleep 0.3\nexec '{}' \"$@\"\n",
-                               LOBELIA_PROGRAM));
+  write_file(slow, fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && sleep 0.3\nexec {} \"$@\"\n",
+                               shell_quote(LOBELIA_PROGRAM)));
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
   // Of 18 pairs, two may be disturbed.
   const auto pair = [&](const std::string& a, const std::string& b) {
