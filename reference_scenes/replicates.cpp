@@ -153,7 +153,7 @@ Image SizedLights::seen_in(const Scene& simple) const {
       Rgb sum;
       for (std::size_t l = 0; l < lights_.size(); ++l) {
         if (is_environment(lights_[l])) {
-          if (surface.index < 0) sum = sum + prepared_[l]->look(direction).radiance;
+          if (surface.index < 0) sum = sum + prepared_[l]->look(direction).radiance();
         } else if (is_area(lights_[l])) {
           const double distance = prepared_[l]->distance(frame.origin, direction);
           const bool lies_on_it = std::ranges::count(contacts_[l], surface.index) > 0;

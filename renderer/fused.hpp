@@ -43,7 +43,7 @@ class FusedRenderer {
   static std::string kernel_text();
 
  private:
-  static constexpr int kPixelsOfTask = 8192;
+  static constexpr int kPixelsOfTask = 2048;
 
   struct Outline {
     double ahead, aside, above;  ///< from the eye to the centre, in the camera's frame

@@ -13,8 +13,19 @@ double power_heuristic(double p, double q) {
 
 /// Whether the light draws directions, alone or with the surface. The same for all area lights.
 bool draws(const PreparedScene& prepared, std::size_t light, int material) {
-  return is_delta(prepared.scene.lights[light]) ||
-         prepared.plan.strategy[light][std::size_t(material)] != LightStrategy::kSurface;
+  if (is_delta(prepared.scene.lights[light])) return true;
+  const LightStrategy strategy = prepared.plan.strategy[light][std::size_t(material)];
+  return strategy == LightStrategy::kBoth && is_environment(prepared.scene.lights[light])
+             ? prepared.lights[light]->has_bright()
+             : strategy != LightStrategy::kSurface;
+}
+
+/// Whether draws by the light and by the surface are weighted against each other. Without a highlight, the surface
+/// brings nothing of what an environment draws.
+bool are_weighted(const PreparedScene& prepared, std::size_t light, int material) {
+  return prepared.plan.strategy[light][std::size_t(material)] == LightStrategy::kBoth &&
+         (!is_environment(prepared.scene.lights[light]) || prepared.all_effects() ||
+          has_highlight(prepared.materials[std::size_t(material)].material));
 }
 
 void weigh_against_surface(const PreparedScene& prepared, const Hits& hits, LightSamples& drawn) {
@@ -136,20 +147,19 @@ void light_by_one_of(const LightTree& tree, const PreparedScene& prepared, const
           work);
 }
 
-/// The part of add_met_lights() for a single light.
+/// The part of add_met_lights() for an area light.
 struct MetLight {
   const PreparedScene& prepared;
   const Wave& wave;
   std::size_t index;
   Rgb emitted = strength(prepared.scene.lights[index]);
-  bool environment = is_environment(prepared.scene.lights[index]);
   bool on_surface = !prepared.plan.contacts[index].empty();
   bool scattered = wave.kind == Wave::Kind::kScattered;
 
   /// Adds the light that a ray meets at a distance, and that the light draws with a density.
   void add(std::size_t i, double distance, double pdf, Workspace& work) const {
-    if (!environment && !(distance < std::numeric_limits<double>::infinity())) return;
-    bool hidden = environment ? wave.surface[i] >= 0 : !(distance < wave.distance[i]);
+    if (!(distance < std::numeric_limits<double>::infinity())) return;
+    bool hidden = !(distance < wave.distance[i]);
     if (on_surface) {
       if (prepared.plan.lies_on(index, int(wave.leaves[i]))) return;
       hidden &= !prepared.plan.lies_on(index, int(wave.surface[i]));
@@ -159,17 +169,40 @@ struct MetLight {
         scattered ? prepared.plan.strategy[index][std::size_t(wave.material[i])]
                   : LightStrategy::kSurface;
     if (strategy == LightStrategy::kLight) return;
-    EnvironmentLook seen{emitted, pdf};
-    if (environment) {
-      seen = prepared.lights[index]->look(-get(wave.to_eye, i));
-      ++work.work.of<effects::Environment>();
-    }
-    const double share =
-        strategy == LightStrategy::kBoth ? power_heuristic(wave.pdf[i], seen.pdf) : 1;
+    const double share = strategy == LightStrategy::kBoth ? power_heuristic(wave.pdf[i], pdf) : 1;
     Rgb& sum = work.radiance[std::size_t(wave.slot[i])];
-    sum = sum + share * seen.radiance * wave.weight[i];
+    sum = sum + share * emitted * wave.weight[i];
   }
 };
+
+/// The part of it for an environment.
+void add_met_environment(const PreparedScene& prepared, const Wave& wave, std::size_t l,
+                         Workspace& work) {
+  const bool scattered = wave.kind == Wave::Kind::kScattered;
+  const bool through = scattered && !prepared.plan.experiment.shadows;
+  const auto strategy = [&](std::size_t i) {
+    return scattered ? prepared.plan.strategy[l][std::size_t(wave.material[i])]
+                     : LightStrategy::kSurface;
+  };
+  work.looking.clear();
+  for (std::size_t i = 0; i < wave.count; ++i)
+    if ((wave.surface[i] < 0 || through) && strategy(i) != LightStrategy::kLight) {
+      copy(wave.to_eye, i, work.part_to_eye, work.looking.size());
+      work.looking.push_back(int(i));
+    }
+  prepared.lights[l]->look(work.looking.size(), work.part_to_eye, work.looks.data());
+  work.work.of<effects::Environment>() += work.looking.size();
+  for (std::size_t k = 0; k < work.looking.size(); ++k) {
+    const std::size_t i = std::size_t(work.looking[k]);
+    const EnvironmentLook& seen = work.looks[k];
+    double share = 1;
+    if (strategy(i) == LightStrategy::kBoth)
+      share =
+          are_weighted(prepared, l, wave.material[i]) ? power_heuristic(wave.pdf[i], seen.pdf) : 0;
+    Rgb& sum = work.radiance[std::size_t(wave.slot[i])];
+    sum = sum + (seen.smooth + share * seen.bright) * wave.weight[i];
+  }
+}
 
 /// Adds the radiance of the area lights that one is drawn of.
 void add_met_lights_of_tree(const PreparedScene& prepared, const Wave& wave, Workspace& work) {
@@ -215,10 +248,13 @@ void light_by(std::size_t l, const PreparedScene& prepared, const Wave& wave, Wo
   } else {
     if (is_black(strength(light)) && !prepared.all_effects()) return;
     work.draw(wave, kLight + std::uint32_t(l));
-    prepared.lights[l]->sample(hits.count, hits.point, work.random.u, work.random.v, drawn);
+    const auto strategy = prepared.plan.strategy[l][std::size_t(hits.material)];
+    if (is_environment(light) && strategy == LightStrategy::kBoth)
+      prepared.lights[l]->sample_bright(hits.count, work.random.u, work.random.v, drawn);
+    else
+      prepared.lights[l]->sample(hits.count, hits.point, work.random.u, work.random.v, drawn);
     leave_out_unlit(hits, drawn);
-    if (prepared.plan.strategy[l][std::size_t(hits.material)] == LightStrategy::kBoth)
-      weigh_against_surface(prepared, hits, drawn);
+    if (are_weighted(prepared, l, hits.material)) weigh_against_surface(prepared, hits, drawn);
     (is_environment(light) ? work.work.of<effects::Environment>()
                            : work.work.of<effects::AreaLights>()) += hits.count;
   }
@@ -231,13 +267,15 @@ void light_by(std::size_t l, const PreparedScene& prepared, const Wave& wave, Wo
 
 void add_met_lights(const PreparedScene& prepared, const Wave& wave, Workspace& work) {
   for (const std::size_t l : prepared.single_lights) {
-    const MetLight light{prepared, wave, l};
-    if (is_delta(prepared.scene.lights[l]) || (is_black(light.emitted) && !prepared.all_effects()))
+    const Light& one = prepared.scene.lights[l];
+    if (is_delta(one) || (is_black(strength(one)) && !prepared.all_effects())) continue;
+    if (is_environment(one)) {
+      add_met_environment(prepared, wave, l, work);
       continue;
-    if (!light.environment) {
-      prepared.lights[l]->meet(wave.count, wave.origin, wave.to_eye, light.scattered, work.met);
-      work.work.of<effects::AreaLights>() += wave.count;
     }
+    const MetLight light{prepared, wave, l};
+    prepared.lights[l]->meet(wave.count, wave.origin, wave.to_eye, light.scattered, work.met);
+    work.work.of<effects::AreaLights>() += wave.count;
     for (std::size_t i = 0; i < wave.count; ++i)
       light.add(i, work.met.distance[i], light.scattered ? work.met.pdf[i] : 0, work);
   }

@@ -143,9 +143,10 @@ struct Workspace {
   RandomPairs random;
   LightSamples drawn;  ///< towards a light, one for each hit
   LightMeetings met;
+  std::array<EnvironmentLook, kChunk> looks;     ///< of work.looking
   std::array<LightTree::Choice, kChunk> chosen;  ///< one of many lights, for each hit
   std::vector<std::uint16_t> by_light;           ///< hits, sorted by it
-  std::vector<int> looking;                      ///< rays that may meet one of many lights
+  std::vector<int> looking;  ///< rays that may meet one of many lights, or the sky
   // Of hits or rays that one of many lights is for.
   Vec3Chunk part_point{}, part_to_eye{};
   RandomPairs part_random;

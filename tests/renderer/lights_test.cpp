@@ -9,6 +9,7 @@
 #include "renderer/scene/lights/envmap_table.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"
+#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -153,57 +154,109 @@ TEST(SphereLight, IsDarkFromInside) {
   EXPECT_EQ(light.meet({0, 0.5, 0}, {0, 1, 0}).pdf, 0);
 }
 
-EnvmapTable with_image(int width, int height, const std::function<float(int, int)>& value) {
+EnvmapTable with_image(int width, int height, const std::function<float(int, int)>& value,
+                       double floor = 0) {
   auto image = std::make_shared<Image>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (float& c : image->pixel(x, y)) c = value(x, y);
-  return {image, {1, 1, 1}};
+  return {image, {1, 1, 1}, floor};
 }
 
 TEST(EnvironmentImage, IsWhereTheConventionSays) {
   // A bright pixel in each place that the convention names.
-  const auto brightest_direction = [](int x, int y) {
-    return with_image(64, 32, [=](int u, int v) { return u == x && v == y ? 1.0f : 0.0f; });
+  const auto seen = [](int x, int y, Vec3 direction) {
+    return with_image(64, 32, [=](int u, int v) { return u == x && v == y ? 1.0f : 0.0f; })
+        .look(direction)
+        .radiance()
+        .r;
   };
   const double half_pixel = kPi / 64;
-  const Vec3 middle{std::sin(half_pixel), 0, -std::cos(half_pixel)};
-  EXPECT_GT(brightest_direction(32, 16).look(middle).radiance.r, 0.4);
-  EXPECT_GT(brightest_direction(48, 16).look({1, 0, 0}).radiance.r, 0.2);
-  EXPECT_GT(brightest_direction(16, 16).look({-1, 0, 0}).radiance.r, 0.2);
-  EXPECT_GT(brightest_direction(0, 16).look({0, 0, 1}).radiance.r, 0.2);
-  EXPECT_GT(brightest_direction(5, 0).look(normalize({-0.03, 1, 0.05})).radiance.r, 0.2);
-  EXPECT_GT(brightest_direction(5, 31).look(normalize({-0.03, -1, 0.05})).radiance.r, 0.2);
+  EXPECT_GT(seen(32, 16, {std::sin(half_pixel), 0, -std::cos(half_pixel)}), 0.4);
+  EXPECT_GT(seen(48, 16, {1, 0, 0}), 0.2);
+  EXPECT_GT(seen(16, 16, {-1, 0, 0}), 0.2);
+  EXPECT_GT(seen(0, 16, {0, 0, 1}), 0.2);
+  EXPECT_GT(seen(5, 0, normalize({-0.03, 1, 0.05})), 0.2);
+  EXPECT_GT(seen(5, 31, normalize({-0.03, -1, 0.05})), 0.2);
 }
 
-TEST(EnvironmentImage, DrawsItsBrightDirectionsWithoutBias) {
-  const EnvmapTable environment = with_image(64, 32, [](int x, int y) {
-    return x == 10 && y == 5 ? 100.0f : x < 20 ? 0.1f : 0.0f;
-  });
-  Rgb by_draws, by_looks;
-  double solid_angle = 0;
-  constexpr std::uint32_t kDraws = 1 << 20;
-  for (std::uint32_t k = 0; k < kDraws; ++k) {
-    const auto [u, v] = sobol::pair(3, k, 0);
-    const DirectionSample s = environment.sample(u, v);
-    ASSERT_GT(s.pdf, 0);
-    ASSERT_NEAR(environment.look(s.to_light).pdf / s.pdf, 1, 1e-9);
-    by_draws = by_draws + 1 / s.pdf / kDraws * s.radiance;
-    by_looks = by_looks + 4 * kPi / kDraws * environment.look(evenly(u, v)).radiance;
-    solid_angle += 1 / s.pdf / kDraws;
+TEST(EnvironmentImage, DrawsWhatIsAboveItsFloorAndNothingElse) {
+  for (const double floor : {0.0, 0.05, 0.1, 50.0}) {
+    const EnvmapTable environment = with_image(
+        64, 32,
+        [](int x, int y) { return (x == 10 && y == 5) || y == 0 ? 100.0f
+                                  : x < 20                      ? 0.1f
+                                                                : 0.0f; },
+        floor);
+    double by_draws = 0, by_looks = 0, density = 0;
+    constexpr std::uint32_t kDraws = 1 << 20;
+    for (std::uint32_t k = 0; k < kDraws; ++k) {
+      const auto [u, v] = sobol::pair(3, k, 0);
+      const DirectionSample s = environment.sample(u, v);
+      ASSERT_GT(s.pdf, 0);
+      const EnvironmentLook there = environment.look(s.to_light);
+      ASSERT_NEAR(there.pdf / s.pdf, 1, 1e-6);
+      ASSERT_NEAR(there.bright.r / s.radiance.r, 1, 1e-6);
+      by_draws += s.radiance.r / s.pdf / kDraws;
+      const EnvironmentLook anywhere = environment.look(evenly(u, v));
+      by_looks += 4 * kPi / kDraws * anywhere.bright.r;
+      density += 4 * kPi / kDraws * anywhere.pdf;
+      ASSERT_LE(anywhere.smooth.r, floor * (1 + 1e-9));
+      ASSERT_EQ(anywhere.pdf > 0, anywhere.bright.r > 0);
+    }
+    EXPECT_NEAR(by_draws / by_looks, 1, 2e-3) << floor;
+    EXPECT_NEAR(density, 1, 2e-3) << floor;
   }
-  EXPECT_NEAR(by_draws.r, by_looks.r, 2e-3 * by_looks.r);
-  // It draws only from what shines: nothing of the dark half but the rim that interpolation lights.
-  EXPECT_NEAR(solid_angle, 4 * kPi * 22 / 64, 0.05);
 }
 
-TEST(EnvironmentImage, OfOnePixelOrBlackIsNoSpecialCase) {
-  const EnvmapTable one = with_image(1, 1, [](int, int) { return 2.0f; });
-  EXPECT_NEAR(one.look({0.6, 0.8, 0}).radiance.g, 2, 1e-6);
-  EXPECT_NEAR(one.look({0.6, 0.8, 0}).pdf, 1 / (4 * kPi), 1e-12);
-  const EnvmapTable black = with_image(8, 4, [](int, int) { return 0.0f; });
-  EXPECT_GT(black.sample(0.3, 0.7).pdf, 0);
-  EXPECT_EQ(black.sample(0.3, 0.7).radiance.r, 0);
+TEST(EnvironmentImage, DrawsInProportionToItsBrightnessBetweenThePixelsToo) {
+  // So each draw brings the same light, but for the change of the sine within a pixel.
+  const EnvmapTable environment = with_image(256, 128, [](int x, int y) {
+    return y < 8 || (x * 7 + y * 3) % 11 < 2 ? float(1 + x % 5) : 0.0f;
+  });
+  constexpr std::uint32_t kDraws = 20000;
+  double mean = 0;
+  std::vector<std::pair<double, double>> draws;
+  for (std::uint32_t k = 0; k < kDraws; ++k) {
+    const auto [u, v] = sobol::pair(5, k, 0);
+    const DirectionSample s = environment.sample(u, v);
+    draws.push_back({s.to_light.y, s.radiance.r / s.pdf});
+    mean += s.radiance.r / s.pdf / kDraws;
+  }
+  for (const auto& [cosine, light] : draws) {
+    if (std::abs(cosine) > 0.97) continue;  // beside a pole it changes a lot
+    const double change = kPi / 128 * std::abs(cosine) / std::sqrt(1 - cosine * cosine);
+    ASSERT_NEAR(light / mean, 1, 2e-3 + 1.2 * change) << cosine;
+  }
+}
+
+TEST(EnvironmentImage, OfOnePixelOrBlackOrEvenIsNoSpecialCase) {
+  const auto even = [](int, int) { return 2.0f; };
+  const EnvmapTable one = with_image(1, 1, even);
+  EXPECT_NEAR(one.look({0.6, 0.8, 0}).radiance().g, 2, 1e-6);
+  EXPECT_GT(one.sample(0.3, 0.7).pdf, 0);
+  for (const EnvmapTable& none :
+       {with_image(8, 4, [](int, int) { return 0.0f; }), with_image(8, 4, even, 2)}) {
+    EXPECT_TRUE(none.is_black());
+    EXPECT_EQ(none.sample(0.3, 0.7).pdf, 0);
+    EXPECT_EQ(none.look({0, 1, 0}).pdf, 0);
+  }
+}
+
+TEST(SmoothLuminance, LeavesAtMostFourTimesTheMeanOfWhatIsBelowIt) {
+  const auto smooth = [](const std::function<float(int, int)>& value) {
+    return smooth_luminance(*sky(value));
+  };
+  EXPECT_GT(smooth([](int, int) { return 1.0f; }), 1) << "an even sky has nothing above it";
+  EXPECT_GT(smooth([](int, int y) { return y < 16 ? 1.0f : 0.0f; }), 1);
+  // A sun does not raise it by more than the light that it sheds on the mean.
+  const double with_sun = smooth([](int x, int y) {
+    return x == 20 && y == 9 ? 1e6f : y < 16 ? 1.0f : 0.0f;
+  });
+  EXPECT_GT(with_sun, 1);
+  EXPECT_LT(with_sun, 2.2);
+  // What fills too little of the sky is drawn as a whole.
+  EXPECT_LT(smooth([](int x, int y) { return x < 4 && y == 9 ? 1.0f : 0.0f; }), 1e-3);
 }
 
 }  // namespace

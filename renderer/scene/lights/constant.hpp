@@ -1,5 +1,6 @@
 // The same light from everywhere, infinitely far away.
-#pragma once
+#ifndef LOBELIA_RENDERER_SCENE_LIGHTS_CONSTANT_HPP
+#define LOBELIA_RENDERER_SCENE_LIGHTS_CONSTANT_HPP
 
 #include "renderer/scene/lights/light.hpp"
 
@@ -21,13 +22,33 @@ struct ConstantLight {
   DirectionSample sample(double u, double v) const {
     const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c));
     const double turn = 2 * kPi * v;
-    return {{s * std::cos(turn), c, s * std::sin(turn)}, kPdf, radiance};
+    return {{s * std::cos(turn), c, s * std::sin(turn)}, 1 / (4 * kPi), radiance};
   }
-  EnvironmentLook look(Vec3) const { return {radiance, kPdf}; }
-  static constexpr double kPdf = 1 / (4 * kPi);
+  static constexpr bool has_bright() { return false; }
+  EnvironmentLook look(Vec3) const { return {radiance, {}}; }
 
   bool operator==(const ConstantLight&) const = default;
 };
 static_assert(LightType<ConstantLight>);
 
 }  // namespace lobelia
+
+#endif
+
+#ifdef LOBELIA_LIGHT_KERNELS
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+inline void look_at(const ConstantLight& light, std::size_t count, const Vec3Chunk&,
+                    EnvironmentLook* looks) {
+  std::fill_n(looks, count, EnvironmentLook{light.radiance, {}});
+}
+
+inline void sample_bright(const ConstantLight&, std::size_t count, const double*, const double*,
+                          LightSamples& drawn) {
+  std::fill_n(drawn.factor, count, 0.0);
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

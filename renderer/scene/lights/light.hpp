@@ -106,10 +106,13 @@ struct DirectionSample {
   Rgb radiance;    ///< that arrives along it
 };
 
-/// An environment's radiance in a direction, and the density with which it draws that direction.
+/// An environment in a direction. Its radiance has two parts.
 struct EnvironmentLook {
-  Rgb radiance;
-  double pdf;
+  Rgb smooth;      ///< that a surface samples well
+  Rgb bright;      ///< that the environment draws itself
+  double pdf = 0;  ///< of drawing this direction to the bright part, per steradian
+
+  Rgb radiance() const { return smooth + bright; }
 };
 
 /// The light with the constants of a picture, L::Ready if it has any.
@@ -154,12 +157,15 @@ concept AreaLight = AnyLight<L> &&
   { light.reach_along(v) } -> std::same_as<double>;
 };
 
+/// For registers: look_at(ready, count, to_eye, looks), against `to_eye`; and where it has a bright part,
+/// sample_bright(ready, count, u, v, drawn).
 template <class L>
 concept EnvironmentLight =
     AnyLight<L> &&
     L::kInfo.kind == LightKind::kEnvironment&& requires(const typename ReadyLight<L>::Type& ready,
                                                         Vec3 direction, double u) {
   { ready.sample(u, u) } -> std::same_as<DirectionSample>;
+  { ready.has_bright() } -> std::same_as<bool>;
   { ready.look(direction) } -> std::same_as<EnvironmentLook>;
 };
 

@@ -62,12 +62,34 @@ class PreparedLightOf final : public PreparedLight {
       }
   }
 
+  void sample_bright(std::size_t count, const double* u, const double* v,
+                     LightSamples& drawn) const override {
+    if constexpr (kKind == LightKind::kEnvironment)
+      HWY_NAMESPACE::sample_bright(ready_, count, u, v, drawn);
+    else
+      refuse("only environments have a bright part");
+  }
+
+  bool has_bright() const override {
+    if constexpr (kKind == LightKind::kEnvironment)
+      return ready_.has_bright();
+    else
+      return false;
+  }
+
   void meet(std::size_t count, const Vec3Chunk& origin, const Vec3Chunk& to_eye, bool densities,
             LightMeetings& met) const override {
     if constexpr (kKind == LightKind::kArea)
       meet_light(ready_, count, origin, to_eye, densities, met);
     else
       refuse("only area lights are met by rays");
+  }
+
+  void look(std::size_t count, const Vec3Chunk& to_eye, EnvironmentLook* looks) const override {
+    if constexpr (kKind == LightKind::kEnvironment)
+      look_at(ready_, count, to_eye, looks);
+    else
+      refuse("only environments are looked at");
   }
 
   EnvironmentLook look(Vec3 direction) const override {

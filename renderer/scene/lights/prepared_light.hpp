@@ -33,7 +33,13 @@ class PreparedLight {
   /// For area lights. Rays run opposite to `to_eye`. Without `densities` only distances are computed.
   virtual void meet(std::size_t count, const Vec3Chunk& origin, const Vec3Chunk& to_eye,
                     bool densities, LightMeetings& met) const = 0;
-  /// For environments.
+  /// For environments: one direction to the bright part for each pair (u, v), with its radiance.
+  virtual void sample_bright(std::size_t count, const double* u, const double* v,
+                             LightSamples& drawn) const = 0;
+  /// Whether there is one. False for all other lights.
+  virtual bool has_bright() const = 0;
+  /// For environments: what rays see that run opposite to `to_eye`.
+  virtual void look(std::size_t count, const Vec3Chunk& to_eye, EnvironmentLook* looks) const = 0;
   virtual EnvironmentLook look(Vec3 direction) const = 0;
 
   /// A random lamp. The average of such lamps is the light.
