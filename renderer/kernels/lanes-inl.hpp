@@ -2,6 +2,8 @@
 // renderer/real.hpp. Compiled once for each instruction set.
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "renderer/real.hpp"
 
 #if defined(LOBELIA_RENDERER_KERNELS_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -119,6 +121,25 @@ HWY_INLINE void widen(Lanes32 a, Lanes& low, Lanes& high) {
   const hn::Half<hn::ScalableTag<float>> half;
   low = Lanes(hn::PromoteTo(wide, hn::LowerHalf(half, a.v)));
   high = Lanes(hn::PromoteTo(wide, hn::UpperHalf(half, a.v)));
+}
+
+/// (1 - s)^n by squaring, in float64: there a power multiplies no rounding that float32 would show. n >= 1; 0 where
+/// 1 - s is less than `smallest` (smallest_base() in renderer/real.hpp).
+HWY_INLINE Lanes32 power_of_one_minus(Lanes32 s, int n, double smallest) {
+  const hn::ScalableTag<double> d;
+  Lanes low, high;
+  widen(s, low, high);
+  const auto base = [&](Lanes x) HWY_ATTR {
+    const auto rest = hn::Sub(hn::Set(d, 1.0), x.v);
+    return Lanes(hn::IfThenElseZero(hn::Ge(rest, hn::Set(d, smallest)), rest));
+  };
+  low = base(low), high = base(high);
+  Lanes low_power = low, high_power = high;
+  for (int bit = std::bit_floor(unsigned(n)) >> 1; bit > 0; bit >>= 1) {
+    low_power = low_power * low_power, high_power = high_power * high_power;
+    if (n & bit) low_power = low_power * low, high_power = high_power * high;
+  }
+  return narrow(low_power, high_power);
 }
 
 /// 1 / sqrt(a) within 1.5 units in the last place, for a from 1e-30 to 1e30: the float32 value and a step of third

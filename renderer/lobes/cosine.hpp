@@ -3,7 +3,9 @@
 //   value(s) = (1 - s)^n where s < 1, else 0
 //
 // The standard that the cheap lobes approximate.
+#include <bit>
 #include <boost/math/special_functions/beta.hpp>
+#include <cmath>
 
 #include "renderer/lobes/lobe.hpp"
 
@@ -15,10 +17,20 @@ struct CosineLobe {
                                   "Phong 1975; Blinn 1977"};
   static constexpr std::array<int, 0> kOrders{};
 
-  explicit CosineLobe(LobeParameters p) : n(p.exponent) {}
+  explicit CosineLobe(LobeParameters p) : n(p.exponent) {
+    if (n < 1 || n > 4096 || n != std::floor(n)) return;
+    const unsigned whole = unsigned(n);
+    if (std::bit_width(whole) + std::popcount(whole) - 2 > kMostFactors) return;
+    whole_n = int(whole);
+    smallest = smallest_base<float>(whole_n);
+  }
 
   template <class Real>
   Real value(Real s) const {
+    if constexpr (requires {
+                    { power_of_one_minus(s, 1, 0.0) } -> std::same_as<Real>;
+                  })
+      if (whole_n > 0) return power_of_one_minus(s, whole_n, smallest);
     return where_less(s, Real(1), exp_or_zero(Real(n) * log_one_minus(s)));
   }
 
@@ -42,6 +54,12 @@ struct CosineLobe {
   Float32Error float32_error() const { return {2e-7, 3, 4}; }
 
   double n;
+  int whole_n = 0;      ///< n, if few products make the power in float32 registers; else 0
+  double smallest = 0;  ///< for it
+
+ private:
+  /// More are slower than logarithm and exponential.
+  static constexpr int kMostFactors = 14;
 };
 static_assert(Lobe<CosineLobe>);
 
