@@ -25,7 +25,7 @@ constexpr MetricOutput kSsimOutputs[] = {
      "How alike the structure is, 1 for equal pictures; more is better.", 1, true}};
 
 void measure_ssim(const MetricInput& input, std::span<double> values) {
-  values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b), input.region).similarity;
+  values[0] = means_of(*shown_ssim(input), input).similarity;
 }
 
 }  // namespace
@@ -35,6 +35,7 @@ extern constinit const Metric ssim_metric{kSsimOutputs,
                                           Needs::kOneWindow,
                                           "Wang, Bovik, Sheikh, Simoncelli 2004",
                                           measure_ssim,
+                                          kSsimWork,
                                           true,
                                           [](const MetricInput&) { return kSsimSide / 2; }};
 
