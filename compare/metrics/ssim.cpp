@@ -11,7 +11,7 @@
 // Input:        DisplayLight (linear, clipped), encoded by sRGB's curve; Rec. 709 luma of that, not
 //               rounded to 8 bits.
 // Agrees with:  grey 128 against grey 160 of 255, 0.975614, to the six published digits; a plain double
-//               loop over windows, to 1e-12.
+//               loop over windows, to 1e-12; with luma in double, to 1e-6.
 // Differs:      Wang's ssim.m first shrinks a picture of more than 384 pixels. This one never does: ms_ssim
 //               covers greater distances. scikit-image repeats pixels beyond the border and then cuts off
 //               5, which is the same region. Its defaults (7 x 7 box, Bessel's correction) are not Wang's.

@@ -46,12 +46,36 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace {
 
-template <class Real>
-HWY_INLINE Real encoded(Real light) {
-  return where(light > 0.0031308, 1.055 * pow(light, 1 / 2.4) - 0.055, 12.92 * light);
+// Products and sums are rounded separately, which gives the same bits on every processor.
+
+/// The curve of IEC 61966-2-1, in float to 2e-7. 1.055 x^(1 / 2.4) - 0.055 is a polynomial of the fourth root of x, by
+/// Chebyshev's points from x = 0.0031308 to 1, which are t = -1 and 1; it is off by 8e-9 at the most.
+template <class D>
+HWY_INLINE hn::Vec<D> encoded(D d, hn::Vec<D> light) {
+  const auto root = hn::Sqrt(hn::Sqrt(light));
+  const auto t = hn::Mul(hn::Sub(root, hn::Set(d, 0.618272516f)), hn::Set(d, 2.6196699f));
+  auto sum = hn::Set(d, 8.803491674e-6f);
+  for (const float coefficient :
+       {-1.868181768e-5f, 1.68271088e-5f, -4.296050173e-5f, 0.0001423038856f, -0.0004127122999f,
+        0.001414944471f, -0.006876498698f, 0.1002521277f, 0.4871259052f, 0.4183899443f})
+    sum = hn::Add(hn::Mul(sum, t), hn::Set(d, coefficient));
+  return hn::IfThenElse(hn::Gt(light, hn::Set(d, 0.0031308f)), sum,
+                        hn::Mul(light, hn::Set(d, 12.92f)));
 }
 
-// Products and sums are rounded separately, which gives the same bits on every processor.
+template <class D>
+HWY_INLINE void luma_at(D d, const float* rgb, float* out) {
+  hn::Vec<D> r, g, b;
+  hn::LoadInterleaved3(d, rgb, r, g, b);
+  r = encoded(d, r), g = encoded(d, g), b = encoded(d, b);
+  const auto weighted =
+      hn::Add(hn::Add(hn::Mul(r, hn::Set(d, 0.2126f)), hn::Mul(g, hn::Set(d, 0.7152f))),
+              hn::Mul(b, hn::Set(d, 0.0722f)));
+  // A grey stays as it is: the weights add up to 1, their rounded products do not.
+  const auto is_grey = hn::And(hn::Eq(r, g), hn::Eq(g, b));
+  hn::StoreU(hn::IfThenElse(is_grey, r, weighted), d, out);
+}
+
 using Block = hn::CappedTag<double, kSsimBlock>;
 
 /// The sum of the taps times values. values(k) is where those of the k-th tap are.
@@ -66,13 +90,10 @@ HWY_INLINE LanesOf<Block> windowed(const Taps& taps, const Values& values) {
 }  // namespace
 
 void luma_lanes(const float* rgb, float* out, std::size_t count) {
-  for_all_pixels(count, [&](auto d, std::size_t i) HWY_ATTR {
-    const auto light = load_rgb(d, rgb + 3 * i);
-    const auto r = encoded(light.r), g = encoded(light.g), b = encoded(light.b);
-    // A grey stays as it is: the weights add up to 1, their rounded products do not.
-    const auto is_grey = hn::And(r == g, g == b);
-    store(where(is_grey, r, 0.2126 * r + 0.7152 * g + 0.0722 * b), out + i);
-  });
+  const hn::ScalableTag<float> d;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) luma_at(d, rgb + 3 * i, out + i);
+  for (; i < count; ++i) luma_at(hn::CappedTag<float, 1>(), rgb + 3 * i, out + i);
 }
 
 void products_lanes(const float* row_a, const float* row_b, const MomentRows& out,

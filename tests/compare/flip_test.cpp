@@ -152,8 +152,8 @@ TEST(Flip, OfPicturesThatDifferInAPartAgreesWithADoubleLoopAroundItAndIsZeroBeyo
     const std::vector<double> plain = fixtures::plain_flip(shown_a, shown_b, filters);
     const PixelValues errors = flip_error_map(shown_a, shown_b, filters);
     for (std::size_t i = 0; i < plain.size(); ++i) {
-      // Where little differs, a root of rounding noise counts (flip_ldr.cpp).
-      ASSERT_NEAR(errors[i], plain[i], 5e-5) << i;
+      // Where little differs, powers and roots of rounding noise count (flip_ldr.cpp).
+      ASSERT_NEAR(errors[i], plain[i], 1e-4) << i;
       if (plain[i] == 0) {
         ASSERT_EQ(errors[i], 0) << i;
       }

@@ -52,6 +52,13 @@ std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b,
   return {lcs / windows, cs / windows};
 }
 
+double plain_luma(Rgb light) {
+  const auto code = [](double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  };
+  return 0.2126 * code(light.r) + 0.7152 * code(light.g) + 0.0722 * code(light.b);
+}
+
 /// Means of 2 x 2 pixels, where an odd border repeats.
 LumaPlane half(const LumaPlane& whole) {
   LumaPlane result{(whole.width + 1) / 2, (whole.height + 1) / 2, {}};
@@ -89,6 +96,18 @@ TEST(Ssim, AgreesWithADoubleLoopOverTheWindows) {
                 b = fixtures::noise(width, height, 2, 1);
     EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(shown_luma(a), shown_luma(b))[0], 1e-12)
         << width << " x " << height;
+  }
+}
+
+TEST(Ssim, OfLumaInDoubleIsTheSameToSixDigits) {
+  for (const float scale : {1.0f, 0.1f, 0.01f}) {
+    const Image a = fixtures::noise(64, 64, 1, scale), b = fixtures::highlight(64, 64, 4, scale);
+    std::array<LumaPlane, 2> planes{LumaPlane{64, 64, {}}, LumaPlane{64, 64, {}}};
+    for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+      planes[0].values.push_back(float(plain_luma(fixtures::shown_at(DisplayLight(a, 0), i))));
+      planes[1].values.push_back(float(plain_luma(fixtures::shown_at(DisplayLight(b, 0), i))));
+    }
+    EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(planes[0], planes[1])[0], 1e-6);
   }
 }
 
@@ -174,17 +193,13 @@ TEST(MsSsim, IsLeftOutBelow176Pixels) {
 }
 
 TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
-  const Image image = fixtures::noise(37, 3, 4, 1.1f);
+  Image image = fixtures::noise(37, 301, 4, 1.1f);
+  // The dark and the bright end of the curve too.
+  for (std::size_t i = 0; i < image.values().size(); i += 2) image.values()[i] *= 0.01f;
   const DisplayLight shown(image, 0);
   const LumaPlane plane = shown_luma(image);
-  const auto code = [](double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-  };
-  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
-    const Rgb light = fixtures::shown_at(shown, i);
-    EXPECT_NEAR(plane.values[i],
-                0.2126 * code(light.r) + 0.7152 * code(light.g) + 0.0722 * code(light.b), 1e-7);
-  }
+  for (std::size_t i = 0; i < image.pixel_count(); ++i)
+    EXPECT_NEAR(plane.values[i], plain_luma(fixtures::shown_at(shown, i)), 3e-7);
 }
 
 TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
