@@ -1,6 +1,7 @@
 #include "compare/compare.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -403,8 +404,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (!options.ignored.empty())
     result.ignored = records::Mask{count_of(options.ignored), options.ignored_of};
   result.crop = options.crop;
-  result.nonfinite.a = count_nonfinite_pixels(a);
-  result.nonfinite.b = count_nonfinite_pixels(b);
+  oneapi::tbb::parallel_invoke([&] { result.nonfinite.a = count_nonfinite_pixels(a); },
+                               [&] { result.nonfinite.b = count_nonfinite_pixels(b); });
   const bool finite = result.nonfinite.a == 0 && result.nonfinite.b == 0;
   if (!finite) {
     result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};

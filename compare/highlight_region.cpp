@@ -1,9 +1,11 @@
 #include "compare/highlight_region.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/colour.hpp"
 #include "core/image_values.hpp"
@@ -15,6 +17,16 @@ namespace {
 constexpr double kDimmestShown = 0.5 / 255 / 12.92;
 /// A picture that is so many times brighter than the other has a firefly, which would hide everything else.
 constexpr double kFarBrighter = 64;
+
+struct Peaks {
+  double a = 0, b = 0;
+};
+
+Peaks peaks_of(const Image& a, const Image& b) {
+  Peaks peaks;
+  oneapi::tbb::parallel_invoke([&] { peaks.a = peak_value(a); }, [&] { peaks.b = peak_value(b); });
+  return peaks;
+}
 
 /// Sets out[i] to 1 where a value within `radius` of row[i] is not 0.
 void grow_row(std::span<const std::uint8_t> row, std::size_t radius, std::uint8_t* out) {
@@ -32,8 +44,9 @@ std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
                                            std::span<const std::uint8_t> mask) {
   std::vector<std::uint8_t> region(a.pixel_count(), 0);
   const auto width = std::size_t(a.width());
-  for (const Image* image : {&a, &b}) {
-    const double least = kHighlightShare * peak_value(*image);
+  const Peaks peaks = peaks_of(a, b);
+  for (const auto& [image, peak] : {std::pair(&a, peaks.a), {&b, peaks.b}}) {
+    const double least = kHighlightShare * peak;
     if (!(least > 0)) continue;
     const std::span<const float> values = image->values();
     oneapi::tbb::parallel_for(0, a.height(), [&](int y) {
@@ -73,7 +86,8 @@ std::vector<std::uint8_t> grown(std::span<const std::uint8_t> region, int width,
 
 Viewing with_exposures(Viewing viewing, const Image& a, const Image& b) {
   if (!viewing.automatic) return viewing;
-  const auto [least, most] = std::minmax({peak_value(a), peak_value(b)});
+  const Peaks peaks = peaks_of(a, b);
+  const auto [least, most] = std::minmax({peaks.a, peaks.b});
   const double peak = least > 0 && most > kFarBrighter * least ? least : most;
   viewing.exposure_stops = 0;
   viewing.tail_stops.reset();

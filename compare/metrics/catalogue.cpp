@@ -163,13 +163,24 @@ Catalogue& catalogue() {
 /// Whether the input's pixels hold at least one of the region.
 bool has_pixels(Region region, const MetricInput& input) {
   const auto is_inside = [](auto inside) { return inside != 0; };
+  // In pieces without a jump: the first pixel may be far into the picture.
+  const auto any_inside = [](std::span<const std::uint8_t> pixels) {
+    constexpr std::size_t kPiece = 4096;
+    for (std::size_t i = 0; i < pixels.size(); i += kPiece) {
+      unsigned any = 0;
+      for (const std::uint8_t pixel : pixels.subspan(i, std::min(kPiece, pixels.size() - i)))
+        any |= pixel;
+      if (any != 0) return true;
+    }
+    return false;
+  };
   switch (region) {
     case Region::kWhole:
       return true;
     case Region::kHighlight:
-      return std::ranges::any_of(input.highlight, is_inside);
+      return any_inside(input.highlight);
     case Region::kMask:
-      return std::ranges::any_of(input.mask, is_inside);
+      return any_inside(input.mask);
     case Region::kOutside:
       return !std::ranges::all_of(input.mask, is_inside);
   }

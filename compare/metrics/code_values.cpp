@@ -89,6 +89,7 @@ PixelValues yiq_differences(const CodePair& codes) {
   return differences(codes, [](const std::uint8_t* one, const std::uint8_t* other) {
     const int r = int(one[0]) - int(other[0]), g = int(one[1]) - int(other[1]),
               blue = int(one[2]) - int(other[2]);
+    if ((r | g | blue) == 0) return 0.0;
     const double y = r * 0.29889531 + g * 0.58662247 + blue * 0.11448223;
     const double i = r * 0.59597799 - g * 0.27417610 - blue * 0.32180189;
     const double q = r * 0.21147017 - g * 0.52261711 + blue * 0.31114694;

@@ -107,36 +107,43 @@ double percentile(std::span<const float> values, double share) {
 
 std::vector<float> nth_values(std::span<const float> values, std::span<const std::size_t> ranks,
                               std::span<const std::uint8_t> region) {
-  // Digit by digit: no copy, and one pass over the values for each, for all ranks together.
-  constexpr int kDigitBits = 16;
-  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+  // Digit by digit, from the highest: no copy, and one pass over the values for each, for all ranks together. Few values
+  // are counted with short digits: it would take longer to look at many counts.
+  constexpr std::size_t kFew = std::size_t{1} << 18;
+  const int most_bits = values.size() < kFew ? 11 : 16;
   struct Wanted {
-    std::uint32_t high;
-    std::size_t rank;  ///< among the numbers with these high digits
+    std::uint32_t found = 0;  ///< digits so far
+    std::size_t rank;         ///< among the numbers that have them
   };
-  const auto find_digit = [](const std::uint32_t* counts, std::size_t& rank) {
-    std::uint32_t digit = 0;
-    for (; rank >= counts[digit]; ++digit) rank -= counts[digit];
-    return digit;
-  };
-  const Counts high =
-      count_numbers(values, region, kDigits,
-                    [](Counts& counts, std::uint32_t number) { ++counts[number >> kDigitBits]; });
   std::vector<Wanted> wanted;
-  for (std::size_t rank : ranks) {
-    const std::uint32_t digit = find_digit(high.data(), rank);
-    wanted.push_back({digit, rank});
+  for (const std::size_t rank : ranks) wanted.push_back({0, rank});
+  std::uint32_t known = 0;
+  for (int shift = 32; shift > 0;) {
+    const int bits = std::min(most_bits, shift);
+    shift -= bits;
+    const std::size_t digits = std::size_t{1} << bits;
+    std::vector<std::uint32_t> begins;  // of the numbers that are counted, each once
+    for (const Wanted& one : wanted)
+      if (std::ranges::count(begins, one.found) == 0) begins.push_back(one.found);
+    const auto count_all = [shift](Counts& own, std::uint32_t number) { ++own[number >> shift]; };
+    const auto count_begun = [&begins, known, shift, digits](Counts& own, std::uint32_t number) {
+      for (std::size_t i = 0; i < begins.size(); ++i)
+        if ((number & known) == begins[i]) ++own[digits * i + (number >> shift & (digits - 1))];
+    };
+    const Counts counts = known == 0
+                              ? count_numbers(values, region, digits, count_all)
+                              : count_numbers(values, region, digits * begins.size(), count_begun);
+    for (Wanted& one : wanted) {
+      const auto begin = std::size_t(std::ranges::find(begins, one.found) - begins.begin());
+      std::uint32_t digit = 0;
+      for (; one.rank >= counts[digits * begin + digit]; ++digit)
+        one.rank -= counts[digits * begin + digit];
+      one.found |= digit << shift;
+    }
+    known |= std::uint32_t(digits - 1) << shift;
   }
-  const Counts low = count_numbers(values, region, kDigits * wanted.size(),
-                                   [&wanted](Counts& counts, std::uint32_t number) {
-                                     for (std::size_t i = 0; i < wanted.size(); ++i)
-                                       if (number >> kDigitBits == wanted[i].high)
-                                         ++counts[kDigits * i + number % kDigits];
-                                   });
   std::vector<float> found;
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    found.push_back(from_order(wanted[i].high << kDigitBits |
-                               find_digit(low.data() + kDigits * i, wanted[i].rank)));
+  for (const Wanted& one : wanted) found.push_back(from_order(one.found));
   return found;
 }
 

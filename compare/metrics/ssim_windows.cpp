@@ -151,9 +151,9 @@ namespace {
 constexpr double kWindowSigma = 1.5;
 constexpr int kAround = kSsimSide - 1;  ///< pixels that a window has more than one
 
-// Windows of a tile: few enough columns to keep all moments of a window's rows in the second cache. Both are even, so
-// that the pixels of the next scale are of one tile.
-constexpr int kTileWidth = 256, kTileHeight = 128;
+// Windows of a tile: few enough columns to keep all moments of a window's rows in the first cache. Both are even, so that
+// the pixels of the next scale are of one tile.
+constexpr int kTileWidth = 64, kTileHeight = 256;
 
 Taps gaussian_window() {
   Taps taps;
