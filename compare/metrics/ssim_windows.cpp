@@ -93,6 +93,12 @@ void luma_lanes(const float* rgb, float* out, std::size_t count) {
   const hn::ScalableTag<float> d;
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) luma_at(d, rgb + 3 * i, out + i);
+  // The last register overlaps the one before; fewer pixels come one by one.
+  if (i > 0 && i < count) {
+    i = count - hn::Lanes(d);
+    luma_at(d, rgb + 3 * i, out + i);
+    return;
+  }
   for (; i < count; ++i) luma_at(hn::CappedTag<float, 1>(), rgb + 3 * i, out + i);
 }
 
