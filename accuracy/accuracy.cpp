@@ -111,8 +111,7 @@ class Bounds {
 double ciede2000_percentile(const Image& picture, const Image& truth, double share) {
   const double stops =
       std::clamp(exposure_for_peak(peak_value(truth)), -kMaxExposureStops, kMaxExposureStops);
-  auto differences = ciede2000_of_pixels({picture, stops}, {truth, stops});
-  return percentile(differences.values, share);
+  return percentile(ciede2000_of_pixels({picture, stops}, {truth, stops}), share);
 }
 
 /// Some of the picture's pixels, by the scene's own lobe in float64.

@@ -27,8 +27,8 @@ const DifferenceMap& map_of(const std::string& id) {
 }
 
 /// At the exposures of the pair, also if no metric asked for them.
-std::vector<float> values_of(const std::string& id, const Image& a, const Image& b,
-                             const Viewing& viewing) {
+PixelValues values_of(const std::string& id, const Image& a, const Image& b,
+                      const Viewing& viewing) {
   return measure_difference_map(
       map_of(id), a, b, is_finite(a) && is_finite(b) ? with_exposures(viewing, a, b) : viewing);
 }
@@ -139,7 +139,7 @@ void DifferencePicture::write(const fs::path& file, const Image& a, const Image&
                               const Comparison& comparison, std::optional<double> of_set) const {
   const DifferenceMap& map = map_of(of);
   if (lacks_exposures(map, comparison.viewing, file)) return;
-  const std::vector<float> values = values_of(of, a, b, comparison.viewing);
+  const PixelValues values = values_of(of, a, b, comparison.viewing);
   const double largest = largest_magnitude(values);
   double last = scale > 0 ? scale : map.scale == MapScale::kOne ? 1 : of_set.value_or(largest);
   if (!(last > 0)) last = 1;

@@ -20,6 +20,7 @@
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -118,11 +119,16 @@ std::optional<records::Known> known_of(const CompareJob& job, const std::string&
 }
 
 /// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not start another one,
-/// so no more pairs are in memory than there are threads.
+/// so no more pairs are in memory than there are threads. Those are one more than processors, unless fewer are asked for:
+/// a thread waits while another process decodes its picture, and would leave a processor idle each time they take turns.
 template <class Work>
 void for_each_pair(std::size_t count, Work work) {
-  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    oneapi::tbb::this_task_arena::isolate([&] { work(i); });
+  const int threads = oneapi::tbb::this_task_arena::max_concurrency();
+  const bool one_more = count > 1 && threads == usual_threads() && threads > 1;
+  ThreadLimit(threads + one_more).run([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      oneapi::tbb::this_task_arena::isolate([&] { work(i); });
+    });
   });
 }
 

@@ -19,8 +19,9 @@ std::vector<gallery::MapKind> gallery_maps() {
     if (!map.in_gallery) continue;
     kinds.push_back({std::string(map.id), std::string(map.unit), std::string(map.meaning),
                      [&map](const Image& a, const Image& b, const gallery::MapViewing& viewing) {
-                       return measure_difference_map(
+                       const PixelValues values = measure_difference_map(
                            map, a, b, {viewing.exposure_stops, viewing.pixels_per_degree});
+                       return std::vector<float>(values.begin(), values.end());
                      },
                      map.scale == MapScale::kOne ? 1.0 : 10.0});
   }

@@ -1,6 +1,7 @@
 #include "compare/compare.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include "compare/uncertainty/critical.hpp"
 #include "compare/uncertainty/z_test.hpp"
 #include "core/constants.hpp"
+#include "core/image_values.hpp"
 #include "core/scratch_memory.hpp"
 #include "core/text.hpp"
 
@@ -30,6 +32,7 @@ std::int64_t count_nonfinite_pixels(const Image& image) {
   const std::span<const float> values = image.values();
   std::int64_t count = 0;
   in_parts(image.pixel_count(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    if (is_finite(values.subspan(3 * begin, 3 * (end - begin)))) return;
     for (std::size_t i = 3 * begin; i < 3 * end; i += 3)
       count += !std::isfinite(values[i]) || !std::isfinite(values[i + 1]) ||
                !std::isfinite(values[i + 2]);
@@ -79,8 +82,6 @@ bool is_asked_for(const Metric& metric, const ComparisonOptions& options) {
   });
 }
 
-using MetricList = std::vector<const Metric*>;
-
 MetricList metrics_asked_for(const ComparisonOptions& options) {
   MetricList list;
   for (const Metric* metric : metrics())
@@ -102,15 +103,14 @@ bool need_display(const MetricList& list) {
 }
 
 records::Named<double> measure_all(const MetricList& list, const MetricInput& input) {
+  MetricList measurable;
+  std::ranges::copy_if(list, std::back_inserter(measurable),
+                       [&](const Metric* metric) { return is_measurable(*metric, input); });
+  const auto values = measure_metrics(measurable, input);
   records::Named<double> results;
-  std::vector<double> values;
-  for (const Metric* metric : list) {
-    if (!is_measurable(*metric, input)) continue;
-    values.assign(metric->outputs.size(), 0.0);
-    measure_metric(*metric, input, values);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      results.emplace_back(metric->outputs[i].id, values[i]);
-  }
+  for (std::size_t m = 0; m < values.size(); ++m)
+    for (std::size_t i = 0; i < values[m].size(); ++i)
+      results.emplace_back(measurable[m]->outputs[i].id, values[m][i]);
   return results;
 }
 
@@ -404,8 +404,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (!options.ignored.empty())
     result.ignored = records::Mask{count_of(options.ignored), options.ignored_of};
   result.crop = options.crop;
-  result.nonfinite.a = count_nonfinite_pixels(a);
-  result.nonfinite.b = count_nonfinite_pixels(b);
+  oneapi::tbb::parallel_invoke([&] { result.nonfinite.a = count_nonfinite_pixels(a); },
+                               [&] { result.nonfinite.b = count_nonfinite_pixels(b); });
   const bool finite = result.nonfinite.a == 0 && result.nonfinite.b == 0;
   if (!finite) {
     result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};

@@ -26,12 +26,17 @@ HWY_INLINE hn::Vec<D> clipped(D d, hn::Vec<D> v) {
   return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d)), hn::Min(v, hn::Set(d, 1)));
 }
 
-/// Calls convert(d, vector) for all values; the last few one by one.
+/// Calls convert(d, vector) for all values. The last vector overlaps the one before; fewer values come one by one.
 template <class D, class Convert>
 HWY_INLINE void for_all(D d, const float* in, float* out, std::size_t count, Convert convert) {
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
     hn::StoreU(convert(d, hn::LoadU(d, in + i)), d, out + i);
+  if (i > 0 && i < count) {
+    i = count - hn::Lanes(d);
+    hn::StoreU(convert(d, hn::LoadU(d, in + i)), d, out + i);
+    return;
+  }
   const hn::CappedTag<float, 1> one;
   for (; i < count; ++i) hn::StoreU(convert(one, hn::LoadU(one, in + i)), one, out + i);
 }

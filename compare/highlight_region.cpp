@@ -1,7 +1,11 @@
 #include "compare/highlight_region.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/colour.hpp"
 #include "core/image_values.hpp"
@@ -14,16 +18,24 @@ constexpr double kDimmestShown = 0.5 / 255 / 12.92;
 /// A picture that is so many times brighter than the other has a firefly, which would hide everything else.
 constexpr double kFarBrighter = 64;
 
-/// Sets each of `count` values `stride` apart to 1 if one within `radius` of it is not 0.
-void grow_line(std::uint8_t* first, std::size_t count, std::size_t stride, std::size_t radius) {
-  std::vector<std::uint8_t> line(count);
+struct Peaks {
+  double a = 0, b = 0;
+};
+
+Peaks peaks_of(const Image& a, const Image& b) {
+  Peaks peaks;
+  oneapi::tbb::parallel_invoke([&] { peaks.a = peak_value(a); }, [&] { peaks.b = peak_value(b); });
+  return peaks;
+}
+
+/// Sets out[i] to 1 where a value within `radius` of row[i] is not 0.
+void grow_row(std::span<const std::uint8_t> row, std::size_t radius, std::uint8_t* out) {
   std::size_t next = 0;  // values before it have been set
-  for (std::size_t i = 0; i < count; ++i) {
-    if (first[i * stride] == 0) continue;
-    const std::size_t end = std::min(count, i + radius + 1);
-    for (next = std::max(next, i > radius ? i - radius : 0); next < end; ++next) line[next] = 1;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] == 0) continue;
+    const std::size_t end = std::min(row.size(), i + radius + 1);
+    for (next = std::max(next, i > radius ? i - radius : 0); next < end; ++next) out[next] = 1;
   }
-  for (std::size_t i = 0; i < count; ++i) first[i * stride] = line[i];
 }
 
 }  // namespace
@@ -31,16 +43,19 @@ void grow_line(std::uint8_t* first, std::size_t count, std::size_t stride, std::
 std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
                                            std::span<const std::uint8_t> mask) {
   std::vector<std::uint8_t> region(a.pixel_count(), 0);
-  for (const Image* image : {&a, &b}) {
-    const double least = kHighlightShare * peak_value(*image);
+  const auto width = std::size_t(a.width());
+  const Peaks peaks = peaks_of(a, b);
+  for (const auto& [image, peak] : {std::pair(&a, peaks.a), {&b, peaks.b}}) {
+    const double least = kHighlightShare * peak;
     if (!(least > 0)) continue;
     const std::span<const float> values = image->values();
-    in_parts(region.size(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t pixel = begin; pixel < end; ++pixel)
+    oneapi::tbb::parallel_for(0, a.height(), [&](int y) {
+      for (std::size_t pixel = width * std::size_t(y), end = pixel + width; pixel < end; ++pixel)
         if (double(std::max({values[3 * pixel], values[3 * pixel + 1], values[3 * pixel + 2]})) >=
                 least &&
             (mask.empty() || mask[pixel] != 0))
           region[pixel] = 1;
+      looked_at(3 * sizeof(float) * width);
     });
   }
   return region;
@@ -49,17 +64,30 @@ std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
 std::vector<std::uint8_t> grown(std::span<const std::uint8_t> region, int width, int radius) {
   std::vector<std::uint8_t> result(region.begin(), region.end());
   if (radius <= 0 || region.empty()) return result;
-  const auto across = std::size_t(width), down = region.size() / across;
-  for (std::size_t y = 0; y < down; ++y)
-    grow_line(result.data() + y * across, across, 1, std::size_t(radius));
-  for (std::size_t x = 0; x < across; ++x)
-    grow_line(result.data() + x, down, across, std::size_t(radius));
+  const auto across = std::size_t(width);
+  const int down = int(region.size() / across);
+  std::vector<std::uint8_t> rows(region.size());
+  const auto row_of = [across](auto& pixels, int y) {
+    return pixels.data() + across * std::size_t(y);
+  };
+  oneapi::tbb::parallel_for(0, down, [&](int y) {
+    grow_row({row_of(region, y), across}, std::size_t(radius), row_of(rows, y));
+  });
+  oneapi::tbb::parallel_for(0, down, [&](int y) {
+    std::uint8_t* const out = row_of(result, y);
+    const std::size_t count = across;  // a byte that is written might be one of `across`
+    for (int from = std::max(0, y - radius); from <= std::min(down - 1, y + radius); ++from) {
+      const std::uint8_t* const row = row_of(rows, from);
+      for (std::size_t x = 0; x < count; ++x) out[x] |= row[x];
+    }
+  });
   return result;
 }
 
 Viewing with_exposures(Viewing viewing, const Image& a, const Image& b) {
   if (!viewing.automatic) return viewing;
-  const auto [least, most] = std::minmax({peak_value(a), peak_value(b)});
+  const Peaks peaks = peaks_of(a, b);
+  const auto [least, most] = std::minmax({peaks.a, peaks.b});
   const double peak = least > 0 && most > kFarBrighter * least ? least : most;
   viewing.exposure_stops = 0;
   viewing.tail_stops.reset();

@@ -221,12 +221,12 @@ const DifferenceMap& map_of(const std::string& id) {
 py::array map_array(const Compared& compared, const std::string& id) {
   const DifferenceMap& map = map_of(id);
   const Image &a = compared.pictures.a.image, &b = compared.pictures.b.image;
-  auto values = std::make_unique<std::vector<float>>();
+  auto values = std::make_unique<PixelValues>();
   run(py::none(), [&](const ShowProgress&) {
     *values = measure_difference_map(map, a, b, compared.report.comparison->viewing);
   });
-  std::vector<float>* const kept = values.get();
-  const py::capsule owner(kept, [](void* one) { delete static_cast<std::vector<float>*>(one); });
+  PixelValues* const kept = values.get();
+  const py::capsule owner(kept, [](void* one) { delete static_cast<PixelValues*>(one); });
   values.release();
   return py::array_t<float>(std::vector<py::ssize_t>{a.height(), a.width()}, kept->data(), owner);
 }
@@ -252,7 +252,7 @@ py::bytes map_png(const Compared& compared, const std::string& id) {
                                                         : kDefaultColourMap;
   DisplayImage picture;
   run(py::none(), [&](const ShowProgress&) {
-    const std::vector<float> values = measure_difference_map(map, a, b, viewing);
+    const PixelValues values = measure_difference_map(map, a, b, viewing);
     picture =
         colour_picture(values, a.width(), a.height(), scale_of(map, values, viewing), colours);
   });

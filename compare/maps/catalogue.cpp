@@ -1,4 +1,6 @@
 // The maps of differences. The visual ones have their formulas and sources in the files of their metrics.
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,23 +17,26 @@ namespace {
 
 /// The largest difference(a, b) of the three channels.
 template <class Difference>
-std::vector<float> largest_of_channels(const MetricInput& input, Difference difference) {
+PixelValues largest_of_channels(const MetricInput& input, Difference difference) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
-  std::vector<float> map(input.a.pixel_count());
-  in_parts(map.size(), 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = 3 * begin; i < 3 * end; ++i)
-      map[i / 3] = std::max(map[i / 3], difference(a[i], b[i]));
+  PixelValues map(input.a.pixel_count());
+  const auto width = std::size_t(input.a.width());
+  oneapi::tbb::parallel_for(0, input.a.height(), [&](int y) {
+    for (std::size_t i = width * std::size_t(y), end = i + width; i < end; ++i)
+      map[i] = std::max({difference(a[3 * i], b[3 * i]), difference(a[3 * i + 1], b[3 * i + 1]),
+                         difference(a[3 * i + 2], b[3 * i + 2])});
+    looked_at(7 * sizeof(float) * width);
   });
   return map;
 }
 
-std::vector<float> absolute(const MetricInput& input) {
+PixelValues absolute(const MetricInput& input) {
   return largest_of_channels(input, [](float a, float b) { return std::abs(a - b); });
 }
 
-std::vector<float> mean_signed(const MetricInput& input) {
+PixelValues mean_signed(const MetricInput& input) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
-  std::vector<float> map(input.a.pixel_count());
+  PixelValues map(input.a.pixel_count());
   in_parts(map.size(), 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
     for (std::size_t pixel = begin; pixel < end; ++pixel) {
       double sum = 0;
@@ -43,7 +48,7 @@ std::vector<float> mean_signed(const MetricInput& input) {
 }
 
 /// Flanks and tails count like the peak.
-std::vector<float> relative(const MetricInput& input) {
+PixelValues relative(const MetricInput& input) {
   return largest_of_channels(input, [](float a, float b) {
     // A difference from a reference of 0 exceeds every scale, but is not the NaN of a broken pixel.
     constexpr double kWithoutReference = std::numeric_limits<float>::max();
@@ -54,32 +59,21 @@ std::vector<float> relative(const MetricInput& input) {
   });
 }
 
-std::vector<float> code_map(const MetricInput& input) {
-  return code_differences(input.shown_a, input.shown_b);
+PixelValues code_map(const MetricInput& input) { return code_differences(*code_pair(input)); }
+
+PixelValues yiq_map(const MetricInput& input) { return yiq_differences(*code_pair(input)); }
+
+PixelValues ciede2000_map(const MetricInput& input) {
+  return ciede2000_of_pixels(input.shown_a, input.shown_b, input.needed());
 }
 
-std::vector<float> yiq_map(const MetricInput& input) {
-  return yiq_differences(input.shown_a, input.shown_b);
+PixelValues delta_e_itp_map(const MetricInput& input) {
+  return delta_e_itp_of_pixels(input.shown_a, input.shown_b, input.needed());
 }
 
-std::vector<float> map_of(const PixelDifferences& differences) {
-  std::vector<float> map(differences.values.size());
-  in_parts(map.size(), sizeof(float), [&](std::size_t begin, std::size_t end) {
-    std::copy_n(differences.values.data() + begin, end - begin, map.data() + begin);
-  });
-  return map;
-}
-
-std::vector<float> ciede2000_map(const MetricInput& input) {
-  return map_of(ciede2000_of_pixels(input.shown_a, input.shown_b));
-}
-
-std::vector<float> delta_e_itp_map(const MetricInput& input) {
-  return map_of(delta_e_itp_of_pixels(input.shown_a, input.shown_b));
-}
-
-std::vector<float> flip_ldr_map(const MetricInput& input) {
-  return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)));
+PixelValues flip_ldr_map(const MetricInput& input) {
+  return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)),
+                        input.needed());
 }
 
 constexpr DifferenceMap kMaps[] = {

@@ -44,8 +44,8 @@ Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) 
   return copy;
 }
 
-std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
-                                  const Viewing& viewing) {
+PixelValues measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
+                           const Viewing& viewing) {
   MetricInput input{a, b, as_shown(a, viewing), as_shown(b, viewing), viewing.pixels_per_degree};
   if (viewing.hdr_exposures) input.hdr_exposures = &*viewing.hdr_exposures;
   return map.measure(input);
@@ -65,15 +65,15 @@ const DifferenceMap* find_difference_map(std::string_view id) {
   return nullptr;
 }
 
-std::vector<float> measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
-                                          const Viewing& viewing) {
+PixelValues measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
+                                   const Viewing& viewing) {
   require_same_size(a, b);
   if (map.needs_exposures && !viewing.hdr_exposures)
     throw Error(ExitCode::kUsage, fmt::format("the map {} needs a range of exposures", map.id));
   if (is_finite(a) && is_finite(b)) return measure_finite(map, a, b, viewing);
   std::vector<std::uint8_t> broken(a.pixel_count(), 0);
   const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
-  std::vector<float> values = measure_finite(map, finite_a, finite_b, viewing);
+  PixelValues values = measure_finite(map, finite_a, finite_b, viewing);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (broken[i] != 0) values[i] = float(kNaN);
   return values;

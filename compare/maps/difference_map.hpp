@@ -25,7 +25,7 @@ struct DifferenceMap {
   bool is_signed;   ///< values may be negative: the colours diverge from 0
   bool in_gallery;  ///< on the gallery's pages, which draw differences of values themselves
   /// One value a pixel in reading order.
-  std::vector<float> (*measure)(const MetricInput& input);
+  PixelValues (*measure)(const MetricInput& input);
   MapScale scale = MapScale::kLargest;
   bool needs_exposures = false;   ///< of HDR-FLIP
   std::string_view colours = {};  ///< empty: kDefaultColourMap, of signed values kSignedColourMap
@@ -38,8 +38,8 @@ const DifferenceMap* find_difference_map(std::string_view id);
 
 /// The map of any two pictures of one size. NaN where a value of either is not finite; its neighbours see 0 there.
 /// Throws Error(kInput) if the sizes differ, and Error(kUsage) if the map needs exposures and there are none.
-std::vector<float> measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
-                                          const Viewing& viewing);
+PixelValues measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
+                                   const Viewing& viewing);
 
 /// Colour maps for a scale from 0 (matplotlib's, by OpenImageIO), and last the one for signed values.
 std::span<const std::string_view> colour_map_names();

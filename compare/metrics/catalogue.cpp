@@ -7,7 +7,6 @@
 #include <deque>
 #include <mutex>
 
-#include "compare/highlight_region.hpp"
 #include "core/text.hpp"
 
 // One line per metric. A file of that name in this directory defines `const Metric <name>_metric`; pixels_over.cpp
@@ -164,69 +163,49 @@ Catalogue& catalogue() {
 /// Whether the input's pixels hold at least one of the region.
 bool has_pixels(Region region, const MetricInput& input) {
   const auto is_inside = [](auto inside) { return inside != 0; };
+  // In pieces without a jump: the first pixel may be far into the picture.
+  const auto any_inside = [](std::span<const std::uint8_t> pixels) {
+    constexpr std::size_t kPiece = 4096;
+    for (std::size_t i = 0; i < pixels.size(); i += kPiece) {
+      unsigned any = 0;
+      for (const std::uint8_t pixel : pixels.subspan(i, std::min(kPiece, pixels.size() - i)))
+        any |= pixel;
+      if (any != 0) return true;
+    }
+    return false;
+  };
   switch (region) {
     case Region::kWhole:
       return true;
     case Region::kHighlight:
-      return std::ranges::any_of(input.highlight, is_inside);
+      return any_inside(input.highlight);
     case Region::kMask:
-      return std::ranges::any_of(input.mask, is_inside);
+      return any_inside(input.mask);
     case Region::kOutside:
       return !std::ranges::all_of(input.mask, is_inside);
   }
   return false;
 }
 
-std::vector<std::uint8_t> pixels_of(const Metric& metric, const MetricInput& input) {
-  if (metric.region == Region::kHighlight)
-    return grown(input.highlight, input.a.width(), metric.footprint ? metric.footprint(input) : 0);
-  std::vector<std::uint8_t> pixels(input.mask.begin(), input.mask.end());
-  if (metric.region == Region::kOutside)
-    for (std::uint8_t& pixel : pixels) pixel = pixel == 0;
-  return pixels;
-}
-
 /// SSIM has no window whose middle is nearer to the border than half of one.
 bool has_window(const Metric& metric, const MetricInput& input) {
-  if (metric.region == Region::kWhole) return true;
-  const std::vector<std::uint8_t> pixels = pixels_of(metric, input);
+  // A highlight is grown by half a window, so that a window's middle is in it wherever it lies.
+  if (metric.region == Region::kWhole || metric.region == Region::kHighlight) return true;
+  const bool inside = metric.region == Region::kMask;
   constexpr int kMargin = kSsimSide / 2;
   const auto width = std::size_t(input.a.width());
   for (int y = kMargin; y < input.a.height() - kMargin; ++y) {
-    const auto row = pixels.begin() + std::ptrdiff_t(std::size_t(y) * width);
+    const auto row = input.mask.begin() + std::ptrdiff_t(std::size_t(y) * width);
     if (std::any_of(row + kMargin, row + std::ptrdiff_t(width) - kMargin,
-                    [](auto inside) { return inside != 0; }))
+                    [inside](auto pixel) { return (pixel != 0) == inside; }))
       return true;
   }
   return false;
 }
 
-/// Worse of two values of an output that takes a limit; of a fact the first.
-double worse(const MetricOutput& output, double one, double other) {
-  if (output.better == Better::kNeither || std::isnan(one)) return one;
-  if (output.better == Better::kHigher) return std::isnan(other) ? other : std::min(one, other);
-  return std::isnan(other) || std::abs(other) > std::abs(one) ? other : one;
-}
-
 }  // namespace
 
 std::span<const Metric* const> metrics() { return catalogue().list(); }
-
-void measure_metric(const Metric& metric, const MetricInput& input, std::span<double> values) {
-  MetricInput part = input;
-  part.threshold = metric.threshold;
-  std::vector<std::uint8_t> pixels;
-  if (metric.region != Region::kWhole) part.region = pixels = pixels_of(metric, input);
-  metric.measure(part, values);
-  const bool is_shown = metric.family != Family::kRadiance && metric.needs != Needs::kHdrExposures;
-  if (!is_shown || !input.shown_tail) return;
-  part.shown_a = input.shown_tail->a;
-  part.shown_b = input.shown_tail->b;
-  std::vector<double> tail(values.size());
-  metric.measure(part, tail);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = worse(metric.outputs[i], values[i], tail[i]);
-}
 
 std::string id_in_region(const Metric& metric, const MetricOutput& output, Region region) {
   if (region == Region::kWhole) return std::string(output.id);

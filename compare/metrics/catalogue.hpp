@@ -8,7 +8,12 @@ namespace lobelia {
 /// A metric that is measured in regions has an entry for each of them. Thresholds that find_metric() met come last.
 std::span<const Metric* const> metrics();
 
-/// Fills one value per output, over the metric's region. With a second exposure the worse of both values counts.
+using MetricList = std::vector<const Metric*>;
+
+/// One value per output of each metric of the list, over its region. With a second exposure the worse of both values
+/// counts. All of them must be measurable. Each value is the same bits as if the metric were measured alone.
+std::vector<std::vector<double>> measure_metrics(std::span<const Metric* const> list,
+                                                 const MetricInput& input);
 void measure_metric(const Metric& metric, const MetricInput& input, std::span<double> values);
 
 /// The metric with an output of this id, and the output; null if there is none. An id of the catalogue that ends in "=0"

@@ -19,7 +19,8 @@ double ciede2000(Lab a, Lab b);
 Lab lab_from_display(Rgb shown);
 
 /// CIEDE2000 of each pixel.
-PixelDifferences ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& b,
-                                     std::span<const std::uint8_t> region = {});
+/// See pixel_differences().
+PixelValues ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& b,
+                                std::span<const std::uint8_t> needed = {});
 
 }  // namespace lobelia

@@ -1,10 +1,14 @@
 #include "compare/metrics/code_values.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "compare/metrics/shared_work.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -26,9 +30,9 @@ class Encoder {
     }
   }
   std::uint8_t code(float light) const {
-    std::size_t code = start_[std::size_t(light * kSteps)];
-    while (light >= least_[code + 1]) ++code;
-    return std::uint8_t(code);
+    const std::size_t code = start_[std::size_t(light * kSteps)];
+    // A step is narrower than a code's light, so it has at most one end of a code.
+    return std::uint8_t(code + (light >= least_[code + 1]));
   }
 
  private:
@@ -39,51 +43,53 @@ class Encoder {
 
 /// difference(codes of a, codes of b) of each pixel.
 template <class Difference>
-std::vector<float> differences(const DisplayLight& a, const DisplayLight& b,
-                               Difference difference) {
-  const auto width = std::size_t(a.width());
-  std::vector<float> map(a.pixel_count());
-  oneapi::tbb::parallel_for(0, a.height(), [&](int y) {
-    const std::vector<std::uint8_t> codes_a = code_values(a, y), codes_b = code_values(b, y);
-    for (std::size_t x = 0; x < width; ++x)
-      map[std::size_t(y) * width + x] =
-          float(difference(codes_a.data() + 3 * x, codes_b.data() + 3 * x));
-  });
+PixelValues differences(const CodePair& codes, Difference difference) {
+  PixelValues map(codes.a.size() / 3);
+  constexpr std::size_t kPart = std::size_t{1} << 14;
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<std::size_t>(0, map.size(), kPart), [&](const auto& part) {
+        for (std::size_t i = part.begin(); i < part.end(); ++i)
+          map[i] = float(difference(codes.a.data() + 3 * i, codes.b.data() + 3 * i));
+        looked_at(part.size() * (6 + sizeof(float)));
+      });
   return map;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> code_values(const DisplayLight& shown, int y) {
+CodeValues code_values(const DisplayLight& shown) {
   static const Encoder encoder;
-  std::vector<float> rgb(3 * std::size_t(shown.width()));
-  shown.fill(y, 0, rgb);
-  std::vector<std::uint8_t> codes(rgb.size());
-  std::ranges::transform(rgb, codes.begin(), [](float light) { return encoder.code(light); });
-  return codes;
-}
-
-std::vector<std::uint8_t> code_values(const DisplayLight& shown) {
-  std::vector<std::uint8_t> codes(3 * shown.pixel_count());
+  CodeValues codes(3 * shown.pixel_count());
+  const auto values = 3 * std::size_t(shown.width());
   oneapi::tbb::parallel_for(0, shown.height(), [&](int y) {
-    const std::vector<std::uint8_t> row = code_values(shown, y);
-    std::ranges::copy(row, codes.begin() + std::ptrdiff_t(row.size() * std::size_t(y)));
+    std::vector<float> rgb(values);
+    shown.fill(y, 0, rgb);
+    std::ranges::transform(rgb, codes.begin() + std::ptrdiff_t(values * std::size_t(y)),
+                           [](float light) { return encoder.code(light); });
+    looked_at(values);
   });
   return codes;
 }
 
-std::vector<float> code_differences(const DisplayLight& a, const DisplayLight& b) {
-  return differences(a, b, [](const std::uint8_t* one, const std::uint8_t* other) {
+std::shared_ptr<const CodePair> code_pair(const MetricInput& input) {
+  return shared(input, kCodeWork, [&] {
+    return CodePair{code_values(input.shown_a), code_values(input.shown_b)};
+  });
+}
+
+PixelValues code_differences(const CodePair& codes) {
+  return differences(codes, [](const std::uint8_t* one, const std::uint8_t* other) {
     int largest = 0;
     for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(int(one[c]) - int(other[c])));
     return largest;
   });
 }
 
-std::vector<float> yiq_differences(const DisplayLight& a, const DisplayLight& b) {
-  return differences(a, b, [](const std::uint8_t* one, const std::uint8_t* other) {
-    const double r = int(one[0]) - int(other[0]), g = int(one[1]) - int(other[1]),
-                 blue = int(one[2]) - int(other[2]);
+PixelValues yiq_differences(const CodePair& codes) {
+  return differences(codes, [](const std::uint8_t* one, const std::uint8_t* other) {
+    const int r = int(one[0]) - int(other[0]), g = int(one[1]) - int(other[1]),
+              blue = int(one[2]) - int(other[2]);
+    if ((r | g | blue) == 0) return 0.0;
     const double y = r * 0.29889531 + g * 0.58662247 + blue * 0.11448223;
     const double i = r * 0.59597799 - g * 0.27417610 - blue * 0.32180189;
     const double q = r * 0.21147017 - g * 0.52261711 + blue * 0.31114694;

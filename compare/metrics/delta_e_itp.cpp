@@ -10,11 +10,13 @@
 //               not depend on the display.
 // Agrees with:  the nine pairs in the tests of the package colour-science (delta_E_ITP), to 4e-8, the
 //               limit of their ten digits. From light to difference: the formulas in 50 decimal digits,
-//               to 2e-11.
+//               to 2e-11. Each pixel of a picture: the formulas by std::pow, to 1e-7 of the difference and 1e-9.
 // Differs:      the light of a pixel and its difference are rounded to float32, as in ciede2000.cpp.
 #include "compare/metrics/delta_e_itp.hpp"
 
-#include "compare/metrics/metric.hpp"
+#include <type_traits>
+
+#include "compare/metrics/shared_work.hpp"
 
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__
@@ -32,42 +34,56 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace {
 
-/// BT.2408, section 2.1: HDR reference white.
-constexpr double kWhite = 203;
+/// BT.2408, section 2.1: HDR reference white, as a share of BT.2100-2's peak.
+constexpr double kWhite = 203.0 / 10000;
 /// BT.2124, Annex 1: scales a just noticeable difference to 1.
 constexpr double kScale = 720;
 
 // BT.2100-2, Table 4.
-constexpr double kPeakLuminance = 10000;
 constexpr double kM1 = 2610.0 / 16384, kM2 = 2523.0 / 4096 * 128;
 constexpr double kC1 = 3424.0 / 4096, kC2 = 2413.0 / 4096 * 32, kC3 = 2392.0 / 4096 * 32;
 static_assert(kC1 == kC3 - kC2 + 1);
+
+// BT.2087-0, annex, M2: from Rec. 709 to Rec. 2020. BT.2100-2, Table 7: from there to cones.
+constexpr double kWide[3][3] = {
+    {0.6274, 0.3293, 0.0433}, {0.0691, 0.9195, 0.0114}, {0.0164, 0.0880, 0.8956}};
+constexpr double kCones[3][3] = {{1688, 2146, 262}, {683, 2951, 462}, {99, 309, 3688}};
+/// Both in one, for the light of a cone as a share of BT.2100-2's peak.
+constexpr double cone_weight(int cone, int channel) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += kCones[cone][i] * kWide[i][channel];
+  return sum * kWhite / 4096;
+}
 
 template <class D>
 struct ItpLanes {
   LanesOf<D> i, t, p;
 };
 
+/// ((c1 + c2 y) / (1 + c3 y))^m2 with y = light^m1, for light in [0, 1]. The logarithm of a fraction p / q is
+/// -2 artanh((q - p) / (q + p)), here of at most 0.09, of which eight terms are enough.
 template <class Real>
-HWY_INLINE Real pq_signal(Real luminance) {
-  const Real y = pow(luminance / kPeakLuminance, kM1);
-  return pow((kC1 + kC2 * y) / (1 + kC3 * y), kM2);
+HWY_INLINE Real pq_signal(Real light) {
+  const Real y = pow(light, kM1);
+  const Real s = (1 - kC1) * (1 - y) / (1 + kC1 + (kC2 + kC3) * y), s2 = s * s;
+  Real series = 1.0 / 15;
+  for (const double term : {13, 11, 9, 7, 5, 3, 1}) series = series * s2 + 1 / term;
+  return exp(-2 * kM2 * s * series);
 }
 
 template <class D>
 HWY_INLINE ItpLanes<D> itp_from_display(const RgbLanes<D>& shown) {
   using Real = LanesOf<D>;
-  // BT.2087-0, annex, M2.
-  const Real r = kWhite * (0.6274 * shown.r + 0.3293 * shown.g + 0.0433 * shown.b);
-  const Real g = kWhite * (0.0691 * shown.r + 0.9195 * shown.g + 0.0114 * shown.b);
-  const Real b = kWhite * (0.0164 * shown.r + 0.0880 * shown.g + 0.8956 * shown.b);
-  // BT.2100-2, Table 7.
-  const Real l = pq_signal((1688 * r + 2146 * g + 262 * b) / 4096);
-  const Real m = pq_signal((683 * r + 2951 * g + 462 * b) / 4096);
-  const Real s = pq_signal((99 * r + 309 * g + 3688 * b) / 4096);
-  const Real ct = (6610 * l - 13613 * m + 7003 * s) / 4096;
-  const Real cp = (17933 * l - 17390 * m - 543 * s) / 4096;
-  return {(l + m) / 2, ct / 2, cp};
+  const auto cone = [&](auto i) HWY_ATTR {
+    constexpr double r = cone_weight(i, 0), g = cone_weight(i, 1), b = cone_weight(i, 2);
+    return pq_signal<Real>(r * shown.r + g * shown.g + b * shown.b);
+  };
+  const Real l = cone(std::integral_constant<int, 0>()), m = cone(std::integral_constant<int, 1>()),
+             s = cone(std::integral_constant<int, 2>());
+  // BT.2100-2, Table 7, and T = Ct / 2.
+  constexpr double kOne = 1.0 / 4096;
+  return {(l + m) * 0.5, (6610 * l - 13613 * m + 7003 * s) * (0.5 * kOne),
+          (17933 * l - 17390 * m - 543 * s) * kOne};
 }
 
 template <class D>
@@ -80,10 +96,8 @@ HWY_INLINE LanesOf<D> delta_e_itp(const ItpLanes<D>& a, const ItpLanes<D>& b) {
 }  // namespace
 
 void delta_e_itp_lanes(const float* rgb_a, const float* rgb_b, float* out, std::size_t count) {
-  for_all_pixels(count, [&](auto d, std::size_t i) HWY_ATTR {
-    store(delta_e_itp(itp_from_display(load_rgb(d, rgb_a + 3 * i)),
-                      itp_from_display(load_rgb(d, rgb_b + 3 * i))),
-          out + i);
+  store_differences(rgb_a, rgb_b, out, count, [](const auto& a, const auto& b) HWY_ATTR {
+    return delta_e_itp(itp_from_display(a), itp_from_display(b));
   });
 }
 
@@ -120,7 +134,10 @@ HWY_EXPORT(itp_of_one);
 HWY_EXPORT(delta_e_itp_of_one);
 
 void measure(const MetricInput& input, std::span<double> values) {
-  delta_e_itp_of_pixels(input.shown_a, input.shown_b, input.region).write_figures({0.95}, values);
+  const auto map = shared(input, "delta_e_itp", [&] {
+    return delta_e_itp_of_pixels(input.shown_a, input.shown_b, input.needed());
+  });
+  write_figures(*map, input, {0.95}, values);
 }
 
 }  // namespace
@@ -129,13 +146,13 @@ Itp itp_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(itp_of_one)(shown)
 
 double delta_e_itp(Itp a, Itp b) { return HWY_DYNAMIC_DISPATCH(delta_e_itp_of_one)(a, b); }
 
-PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b,
-                                       std::span<const std::uint8_t> region) {
-  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes), region);
+PixelValues delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b,
+                                  std::span<const std::uint8_t> needed) {
+  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes), needed);
 }
 
-extern constinit const Metric delta_e_itp_metric{kOutputs, Family::kColour, Needs::kNothing,
-                                                 "ITU-R BT.2124-0", measure};
+extern constinit const Metric delta_e_itp_metric{
+    kOutputs, Family::kColour, Needs::kNothing, "ITU-R BT.2124-0", measure, "delta_e_itp"};
 
 }  // namespace lobelia
 #endif  // HWY_ONCE

@@ -17,7 +17,8 @@ Itp itp_from_display(Rgb shown);
 double delta_e_itp(Itp a, Itp b);
 
 /// Delta E ITP of each pixel.
-PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b,
-                                       std::span<const std::uint8_t> region = {});
+/// See pixel_differences().
+PixelValues delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b,
+                                  std::span<const std::uint8_t> needed = {});
 
 }  // namespace lobelia

@@ -16,12 +16,13 @@ constexpr MetricOutput kDriftOutputs[] = {{"drift", "Mean difference, with its s
                                            "Positive where ours is brighter; noise cancels here."}};
 
 void measure_drift(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_over(input, [](double a, double b) { return a - b; });
+  const auto errors = value_errors(input);
+  values[0] = errors->mean(errors->differences);
 }
 
 }  // namespace
 
 extern constinit const Metric drift_metric{kDriftOutputs, Family::kRadiance, Needs::kNothing,
-                                           "textbook", measure_drift};
+                                           "textbook",    measure_drift,     kValueErrors};
 
 }  // namespace lobelia

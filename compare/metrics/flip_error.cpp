@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include "compare/metrics/flip_kernels.hpp"
 #include "core/aligned.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -16,27 +18,21 @@ namespace {
 // second. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
 constexpr int kTileWidth = 256, kTileHeight = 256;
 
-int tiles_across(int width) { return (width + kTileWidth - 1) / kTileWidth; }
-int tiles_down(int height) { return (height + kTileHeight - 1) / kTileHeight; }
+/// The smallest rectangle around pixels.
+struct FlipArea {
+  int left = std::numeric_limits<int>::max(), right = 0, top = left, bottom = 0;
 
-/// On many threads, for all tiles of the area: errors_of(tile, errors), then visit(i, x, y, row) for each row of errors, from the
-/// top. i is the tile's index; x and y are the row's first pixel.
-template <class ErrorsOf, class Visit>
-void for_each_row_of_tiles(const FlipTile& area, const ErrorsOf& errors_of, const Visit& visit) {
-  const int across = tiles_across(area.width);
-  oneapi::tbb::parallel_for(0, across * tiles_down(area.height), [&](int i) {
-    const int x = i % across * kTileWidth, y = i / across * kTileHeight;
-    const int left = area.left + x, top = area.top + y;
-    const FlipTile tile{left, top, std::min(kTileWidth, area.width - x),
-                        std::min(kTileHeight, area.height - y)};
-    const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
-    std::vector<float> errors(padded * std::size_t(tile.height));
-    errors_of(tile, std::span<float>(errors));
-    for (int row = 0; row < tile.height; ++row)
-      visit(std::size_t(i), left, top + row,
-            std::span<const float>(errors).subspan(padded * std::size_t(row), columns));
-  });
-}
+  /// Columns [first, end) of row y. Rows are added from the top.
+  void add(int y, int first, int end) {
+    left = std::min(left, first);
+    right = std::max(right, end);
+    top = std::min(top, y);
+    bottom = y + 1;
+  }
+  FlipTile tile() const {
+    return right == 0 ? FlipTile{0, 0, 0, 0} : FlipTile{left, top, right - left, bottom - top};
+  }
+};
 
 /// The filtered rows of a tile, from the top. Pixels of the picture's border repeat beyond it. Holds no more rows than
 /// the filters are high, so that they stay in the cache.
@@ -145,81 +141,96 @@ const FlipFiltered& FlipTileRows::next() {
   return out_;
 }
 
-/// The smallest area that holds the region.
-FlipTile area_of(const MetricInput& input) {
-  const int width = input.a.width(), height = input.a.height();
-  if (input.region.empty()) return {0, 0, width, height};
-  int left = width, right = 0, top = height, bottom = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (input.region[std::size_t(y) * std::size_t(width) + std::size_t(x)] == 0) continue;
-      left = std::min(left, x);
-      right = std::max(right, x + 1);
-      top = std::min(top, y);
-      bottom = y + 1;
-    }
-  return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
+/// The smallest area with all pixels that are not 0; the whole picture if there are no pixels.
+FlipTile area_of(std::span<const std::uint8_t> pixels, int width, int height) {
+  if (pixels.empty()) return {0, 0, width, height};
+  FlipArea area;
+  for (int y = 0; y < height; ++y) {
+    const auto row = pixels.subspan(std::size_t(y) * std::size_t(width), std::size_t(width));
+    const auto is_set = [](std::uint8_t pixel) { return pixel != 0; };
+    const auto first = std::ranges::find_if(row, is_set);
+    if (first == row.end()) continue;
+    const auto last = std::find_if(row.rbegin(), row.rend(), is_set);
+    area.add(y, int(first - row.begin()), int(row.rend() - last));
+  }
+  return area.tile();
+}
+
+/// The part of the tile that has a pixel, within `radius`, where the two pictures differ. Beyond it there is no error.
+FlipTile differing_part(const DisplayLight& a, const DisplayLight& b, const FlipTile& tile,
+                        int radius) {
+  const int left = std::max(0, tile.left - radius), top = std::max(0, tile.top - radius),
+            right = std::min(a.width(), tile.left + tile.width + radius),
+            bottom = std::min(a.height(), tile.top + tile.height + radius);
+  std::vector<float> rgb_a(3 * std::size_t(right - left)), rgb_b(rgb_a);
+  FlipArea area;
+  for (int y = top; y < bottom; ++y) {
+    a.fill(y, left, rgb_a);
+    b.fill(y, left, rgb_b);
+    const auto first = std::ranges::mismatch(rgb_a, rgb_b).in1;
+    if (first == rgb_a.end()) continue;
+    const auto last = std::mismatch(rgb_a.rbegin(), rgb_a.rend(), rgb_b.rbegin()).first;
+    area.add(y, left + int(first - rgb_a.begin()) / 3, left + int(rgb_a.rend() - last + 2) / 3);
+  }
+  if (area.right == 0) return {tile.left, tile.top, 0, 0};
+  const int x = std::max(area.left - radius, tile.left), y = std::max(area.top - radius, tile.top);
+  return {x, y, std::min(area.right + radius, tile.left + tile.width) - x,
+          std::min(area.bottom + radius, tile.top + tile.height) - y};
 }
 
 }  // namespace
 
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
                       const FlipTile& tile, std::span<float> errors) {
-  FlipTileRows rows_a(a, filters, tile), rows_b(b, filters, tile);
-  const std::size_t padded = flip_padded(std::size_t(tile.width));
-  for (int row = 0; row < tile.height; ++row)
-    flip_errors(rows_a.next(), rows_b.next(),
-                errors.subspan(padded * std::size_t(row), padded).data(), padded);
+  std::ranges::fill(errors, 0.0f);
+  const FlipTile part =
+      differing_part(a, b, tile, std::max(filters.contrast_radius, filters.feature_radius));
+  if (part.width == 0) return;
+  FlipTileRows rows_a(a, filters, part), rows_b(b, filters, part);
+  const std::size_t columns = std::size_t(part.width), padded = flip_padded(columns),
+                    of_tile = flip_padded(std::size_t(tile.width));
+  std::vector<float> row(padded);
+  for (int y = part.top; y < part.top + part.height; ++y) {
+    flip_errors(rows_a.next(), rows_b.next(), row.data(), padded);
+    std::copy_n(row.data(), columns,
+                errors.data() + of_tile * std::size_t(y - tile.top) + (part.left - tile.left));
+  }
 }
 
-std::vector<float> flip_map(int width, int height, const FlipTileValues& values_of) {
-  std::vector<float> map(std::size_t(width) * std::size_t(height));
-  for_each_row_of_tiles({0, 0, width, height}, values_of,
-                        [&](std::size_t, int x, int y, std::span<const float> values) {
-                          std::ranges::copy(values, map.begin() + std::ptrdiff_t(y) * width + x);
-                        });
+PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
+                     std::span<const std::uint8_t> needed) {
+  PixelValues map(std::size_t(width) * std::size_t(height));
+  const FlipTile area = area_of(needed, width, height);
+  const int across = (area.width + kTileWidth - 1) / kTileWidth,
+            down = (area.height + kTileHeight - 1) / kTileHeight;
+  oneapi::tbb::parallel_for(0, across * down, [&](int i) {
+    const int x = i % across * kTileWidth, y = i / across * kTileHeight;
+    const FlipTile tile{area.left + x, area.top + y, std::min(kTileWidth, area.width - x),
+                        std::min(kTileHeight, area.height - y)};
+    const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
+    std::vector<float> values(padded * std::size_t(tile.height));
+    values_of(tile, values);
+    for (int row = 0; row < tile.height; ++row)
+      std::copy_n(values.data() + padded * std::size_t(row), columns,
+                  map.begin() + std::ptrdiff_t(tile.top + row) * width + tile.left);
+    looked_at(columns * std::size_t(tile.height) * sizeof(float));
+  });
   return map;
 }
 
-std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
-                                  const FlipFilters& filters) {
-  return flip_map(a.width(), a.height(), [&](const FlipTile& tile, std::span<float> errors) {
-    flip_tile_errors(a, b, filters, tile, errors);
-  });
+PixelValues flip_error_map(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
+                           std::span<const std::uint8_t> needed) {
+  return flip_map(
+      a.width(), a.height(),
+      [&](const FlipTile& tile, std::span<float> errors) {
+        flip_tile_errors(a, b, filters, tile, errors);
+      },
+      needed);
 }
 
 int flip_radius(const MetricInput& input) {
   const FlipFilters filters(float(input.pixels_per_degree));
   return std::max(filters.contrast_radius, filters.feature_radius);
-}
-
-void pool_flip_errors(const MetricInput& input, const FlipTileValues& errors_of,
-                      std::span<double> values) {
-  const FlipTile area = area_of(input);
-  struct Sum {
-    double sum = 0, largest = 0;
-    std::size_t count = 0;
-  };
-  std::vector<Sum> of_tile(std::size_t(tiles_across(area.width)) *
-                           std::size_t(tiles_down(area.height)));
-  const auto width = std::size_t(input.a.width());
-  for_each_row_of_tiles(area, errors_of,
-                        [&](std::size_t tile, int x, int y, std::span<const float> errors) {
-                          Sum& in_tile = of_tile[tile];
-                          for (std::size_t i = 0; i < errors.size(); ++i) {
-                            if (!input.in_region(std::size_t(y) * width + std::size_t(x) + i))
-                              continue;
-                            in_tile.sum += double(errors[i]);
-                            in_tile.largest = std::max(in_tile.largest, double(errors[i]));
-                            ++in_tile.count;
-                          }
-                        });
-  // In order of the tiles: the sum must not depend on the number of threads.
-  Sum all;
-  for (const Sum& one : of_tile)
-    all = {all.sum + one.sum, std::max(all.largest, one.largest), all.count + one.count};
-  values[0] = all.sum / double(std::max<std::size_t>(all.count, 1));
-  values[1] = all.largest;
 }
 
 }  // namespace lobelia

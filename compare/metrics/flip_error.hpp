@@ -33,23 +33,20 @@ void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFi
 /// Fills in the values of a tile, in rows that are flip_padded(tile.width) apart. Called on many threads.
 using FlipTileValues = std::function<void(const FlipTile& tile, std::span<float> values)>;
 
-/// One value for each pixel of a picture, in reading order.
-std::vector<float> flip_map(int width, int height, const FlipTileValues& values_of);
+/// Of all pixels, or of the smallest rectangle around those where `needed` is not 0; elsewhere 0.
+PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
+                     std::span<const std::uint8_t> needed = {});
 
-/// FLIP's error of each pixel of the picture, in reading order.
-std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
-                                  const FlipFilters& filters);
+/// FLIP's error of each pixel, as flip_map().
+PixelValues flip_error_map(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
+                           std::span<const std::uint8_t> needed = {});
 
 /// HDR-FLIP's error of each pixel of the picture, and the exposure in stops at which it is so large; the first exposure
 /// where there is no error. The input has exposures.
-std::vector<float> flip_hdr_error_map(const MetricInput& input);
-std::vector<float> flip_hdr_exposure_map(const MetricInput& input);
+PixelValues flip_hdr_error_map(const MetricInput& input);
+PixelValues flip_hdr_exposure_map(const MetricInput& input);
 
 /// The metric's footprint.
 int flip_radius(const MetricInput& input);
-
-/// Writes {mean, maximum} of the errors over the input's region.
-void pool_flip_errors(const MetricInput& input, const FlipTileValues& errors_of,
-                      std::span<double> values);
 
 }  // namespace lobelia

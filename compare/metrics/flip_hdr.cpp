@@ -17,6 +17,8 @@
 #include <algorithm>
 
 #include "compare/metrics/flip_error.hpp"
+#include "compare/metrics/pixel_differences.hpp"
+#include "compare/metrics/shared_work.hpp"
 
 namespace lobelia {
 namespace {
@@ -59,23 +61,27 @@ FlipTileValues tile_values(const MetricInput& input, bool exposures) {
 }
 
 void measure_flip_hdr(const MetricInput& input, std::span<double> values) {
-  pool_flip_errors(input, tile_values(input, false), values);
+  const auto map = shared(input, "flip.hdr", [&] { return flip_hdr_error_map(input); });
+  write_figures(*map, input, {}, values);
 }
 
 }  // namespace
 
-std::vector<float> flip_hdr_error_map(const MetricInput& input) {
-  return flip_map(input.a.width(), input.a.height(), tile_values(input, false));
+PixelValues flip_hdr_error_map(const MetricInput& input) {
+  return flip_map(input.a.width(), input.a.height(), tile_values(input, false), input.needed());
 }
 
-std::vector<float> flip_hdr_exposure_map(const MetricInput& input) {
-  return flip_map(input.a.width(), input.a.height(), tile_values(input, true));
+PixelValues flip_hdr_exposure_map(const MetricInput& input) {
+  return flip_map(input.a.width(), input.a.height(), tile_values(input, true), input.needed());
 }
 
-extern constinit const Metric flip_hdr_metric{
-    kFlipHdrOutputs,      Family::kVisibility,
-    Needs::kHdrExposures, "Andersson et al. 2021; FLIP 1.6",
-    measure_flip_hdr,     true,
-    flip_radius};
+extern constinit const Metric flip_hdr_metric{kFlipHdrOutputs,
+                                              Family::kVisibility,
+                                              Needs::kHdrExposures,
+                                              "Andersson et al. 2021; FLIP 1.6",
+                                              measure_flip_hdr,
+                                              "flip.hdr",
+                                              true,
+                                              flip_radius};
 
 }  // namespace lobelia

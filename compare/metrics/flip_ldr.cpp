@@ -18,6 +18,8 @@
 // square root of rounding noise, about 1e-4 in the tool. It moves the error by up to 5e-5. More
 // precision would remove the noise, and the agreement with it.
 #include "compare/metrics/flip_error.hpp"
+#include "compare/metrics/pixel_differences.hpp"
+#include "compare/metrics/shared_work.hpp"
 
 namespace lobelia {
 namespace {
@@ -29,20 +31,22 @@ constexpr MetricOutput kFlipLdrOutputs[] = {
      "LDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
 
 void measure_flip_ldr(const MetricInput& input, std::span<double> values) {
-  const FlipFilters filters(float(input.pixels_per_degree));
-  pool_flip_errors(
-      input,
-      [&](const FlipTile& tile, std::span<float> errors) {
-        flip_tile_errors(input.shown_a, input.shown_b, filters, tile, errors);
-      },
-      values);
+  const auto map = shared(input, "flip.ldr", [&] {
+    return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)),
+                          input.needed());
+  });
+  write_figures(*map, input, {}, values);
 }
 
 }  // namespace
 
-extern constinit const Metric flip_ldr_metric{kFlipLdrOutputs,  Family::kVisibility,
-                                              Needs::kNothing,  "Andersson et al. 2020; FLIP 1.6",
-                                              measure_flip_ldr, true,
+extern constinit const Metric flip_ldr_metric{kFlipLdrOutputs,
+                                              Family::kVisibility,
+                                              Needs::kNothing,
+                                              "Andersson et al. 2020; FLIP 1.6",
+                                              measure_flip_ldr,
+                                              "flip.ldr",
+                                              true,
                                               flip_radius};
 
 }  // namespace lobelia

@@ -87,7 +87,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric highlight_metric{kOutputs, Family::kRadiance, Needs::kHighlight,
-                                               "ours",   measure,           false};
+extern constinit const Metric highlight_metric{
+    kOutputs, Family::kRadiance, Needs::kHighlight, "ours", measure, {}, false};
 
 }  // namespace lobelia

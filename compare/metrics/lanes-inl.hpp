@@ -51,7 +51,40 @@ struct LanesOf {
     const auto base = hn::IfThenElse(positive, a.v, hn::Set(D(), 1));
     return LanesOf(hn::IfThenElseZero(positive, hn::Exp(D(), hn::Mul(b.v, hn::Log(D(), base)))));
   }
+  /// The cube root to a rounding or two, for a in [1e-3, 1e3], in half of pow()'s time.
+  friend HWY_INLINE LanesOf cube_root(LanesOf a) {
+    // z = a^(-1/3): begins with a third of the float's bits, and is refined without a division. With h = 1 - a z^3,
+    // a^(-1/3) = z (1 - h)^(-1/3) = z (1 + h/3 + 2/9 h^2 + 14/81 h^3 + ...).
+    const hn::Rebind<float, D> narrow;
+    const hn::RebindToSigned<decltype(narrow)> integers;
+    const auto set = [narrow](float x) HWY_ATTR { return hn::Set(narrow, x); };
+    const auto t = hn::DemoteTo(narrow, a.v);
+    const auto bits = hn::ConvertTo(narrow, hn::BitCast(integers, t));
+    auto rough = hn::BitCast(
+        narrow, hn::ConvertTo(integers, hn::Sub(set(1.4199e9f), hn::Mul(bits, set(1.0f / 3)))));
+    const auto rest = hn::Sub(set(1), hn::Mul(hn::Mul(t, rough), hn::Mul(rough, rough)));
+    rough = hn::Add(
+        rough, hn::Mul(hn::Mul(rough, rest), hn::Add(set(1.0f / 3), hn::Mul(set(2.0f / 9), rest))));
+    // Here h is less than 1e-3, and 1e-12 after the step.
+    LanesOf z(hn::PromoteTo(D(), rough));
+    const LanesOf h = 1 - a * z * (z * z);
+    z = z + z * h * (1.0 / 3 + h * (2.0 / 9 + h * (14.0 / 81)));
+    const LanesOf root = a * (z * z);
+    return root + root * ((1 - root * z) * (2.0 / 3));
+  }
 };
+
+/// Whether all pixels of the register have the same light in both pictures.
+template <class D>
+HWY_INLINE bool are_equal(D, const float* rgb_a, const float* rgb_b) {
+  const hn::Rebind<float, D> narrow;
+  const std::size_t lanes = hn::Lanes(narrow);
+  auto equal = hn::Eq(hn::LoadU(narrow, rgb_a), hn::LoadU(narrow, rgb_b));
+  for (std::size_t i = 1; i < 3; ++i)
+    equal = hn::And(
+        equal, hn::Eq(hn::LoadU(narrow, rgb_a + i * lanes), hn::LoadU(narrow, rgb_b + i * lanes)));
+  return hn::AllTrue(narrow, equal);
+}
 
 /// Linear light of a display.
 template <class D>
@@ -85,6 +118,19 @@ HWY_INLINE void for_all_pixels(std::size_t count, Work work) {
   std::size_t i = 0;
   for (; i + hn::Lanes(Wide()) <= count; i += hn::Lanes(Wide())) work(Wide(), i);
   for (; i < count; ++i) work(Single(), i);
+}
+
+/// Writes difference(a, b) of each pixel, where a and b are RgbLanes, and 0 where the pictures are equal.
+template <class Difference>
+HWY_INLINE void store_differences(const float* rgb_a, const float* rgb_b, float* out,
+                                  std::size_t count, Difference difference) {
+  for_all_pixels(count, [&](auto d, std::size_t i) HWY_ATTR {
+    const float *a = rgb_a + 3 * i, *b = rgb_b + 3 * i;
+    // Much of a picture is often equal, such as the background.
+    store(
+        are_equal(d, a, b) ? LanesOf<decltype(d)>(0.0) : difference(load_rgb(d, a), load_rgb(d, b)),
+        out + i);
+  });
 }
 
 }  // namespace lobelia::HWY_NAMESPACE

@@ -16,12 +16,13 @@ constexpr MetricOutput kMaeOutputs[] = {
      "Of all pixels and channels without their signs, in radiance."}};
 
 void measure_mae(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_over(input, [](double a, double b) { return std::abs(a - b); });
+  const auto errors = value_errors(input);
+  values[0] = errors->mean(errors->sizes);
 }
 
 }  // namespace
 
 extern constinit const Metric mae_metric{kMaeOutputs, Family::kRadiance, Needs::kNothing,
-                                         "textbook", measure_mae};
+                                         "textbook",  measure_mae,       kValueErrors};
 
 }  // namespace lobelia

@@ -18,24 +18,16 @@ constexpr MetricOutput kMaxAbsOutputs[] = {
     {"max_abs.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
 
 void measure_max_abs(const MetricInput& input, std::span<double> values) {
-  double largest = 0;
-  std::size_t where = 0;
-  for_each_value(input, [&](double a, double b, std::size_t pixel) {
-    const double difference = std::abs(a - b);
-    if (difference > largest) {
-      largest = difference;
-      where = pixel;
-    }
-  });
+  const auto errors = value_errors(input);
   const std::size_t width = std::size_t(std::max(input.a.width(), 1));
-  values[0] = largest;
-  values[1] = double(where % width);
-  values[2] = double(where / width);
+  values[0] = errors->largest;
+  values[1] = double(errors->where % width);
+  values[2] = double(errors->where / width);
 }
 
 }  // namespace
 
 extern constinit const Metric max_abs_metric{kMaxAbsOutputs, Family::kRadiance, Needs::kNothing,
-                                             "textbook", measure_max_abs};
+                                             "textbook",     measure_max_abs,   kValueErrors};
 
 }  // namespace lobelia

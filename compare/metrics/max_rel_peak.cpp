@@ -7,7 +7,6 @@
 // Input:        scene-linear values, neither exposed nor clipped.
 #include "compare/metrics/picture_part.hpp"
 #include "core/constants.hpp"
-#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {
@@ -19,11 +18,7 @@ constexpr MetricOutput kMaxRelPeakOutputs[] = {
      "largest error as a share of that", "The largest difference divided by the peak."}};
 
 void measure_max_rel_peak(const MetricInput& input, std::span<double> values) {
-  double largest = 0;
-  for_each_value(input, [&](double a, double b, std::size_t) {
-    largest = std::max(largest, std::abs(a - b));
-  });
-  const double peak = peak_value(input.b);
+  const double largest = value_errors(input)->largest, peak = reference_peak(input);
   values[0] = peak;
   values[1] = largest == 0 ? 0 : peak > 0 ? largest / peak : kInfinity;
 }
@@ -31,7 +26,8 @@ void measure_max_rel_peak(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern constinit const Metric max_rel_peak_metric{
-    kMaxRelPeakOutputs, Family::kRadiance, Needs::kNothing, "ours: max_abs by the reference's peak",
-    measure_max_rel_peak};
+    kMaxRelPeakOutputs,   Family::kRadiance,
+    Needs::kNothing,      "ours: max_abs by the reference's peak",
+    measure_max_rel_peak, kValueErrors};
 
 }  // namespace lobelia

@@ -16,6 +16,10 @@
 namespace lobelia {
 
 struct NoiseOfPair;  // compare/uncertainty/z_test.hpp
+class SharedWork;    // compare/metrics/shared_work.hpp
+
+/// One value a pixel, in reading order. float32 halves the memory (256 MB for 8192 x 8192 pixels).
+using PixelValues = std::vector<float, ZeroedMemory<float>>;
 
 /// FLIP's standard viewer: a display 0.7 m wide with 3840 pixels, seen from 0.7 m.
 inline constexpr double kDefaultPixelsPerDegree = 3840 * std::numbers::pi / 180;
@@ -114,10 +118,17 @@ struct MetricInput {
   /// By pixel, not 0 in the highlight, before it is grown; empty if it was not asked for.
   std::span<const std::uint8_t> highlight = {};
   std::optional<ShownPair> shown_tail = {};  ///< at the second exposure, if there is one
-  /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metric().
+  /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metrics().
   std::span<const std::uint8_t> region = {};
-  double threshold = 0;  ///< the metric's own. Set by measure_metric().
+  double threshold = 0;  ///< the metric's own. Set by measure_metrics().
+  /// The regions of all metrics of the same work, empty that of the whole picture. Set by measure_metrics().
+  std::span<const std::span<const std::uint8_t>> regions = {};
+  SharedWork* shared = nullptr;  ///< null: nothing is shared. Set by measure_metrics().
 
+  /// By pixel, not 0 where a metric of the same work looks; empty: everywhere.
+  std::span<const std::uint8_t> needed() const {
+    return regions.size() <= 1 ? region : std::span<const std::uint8_t>();
+  }
   bool in_region(std::size_t pixel) const { return region.empty() || region[pixel] != 0; }
 };
 
@@ -186,6 +197,9 @@ struct Metric {
   std::string_view source;  ///< a short citation of the formula; the metric's file is the contract
   /// Fills one value per output, in their order, over the pixels of input.region.
   void (*measure)(const MetricInput& input, std::span<double> values);
+  /// Metrics of one work are measured one after the other and share what they make of the pictures (shared_work.hpp).
+  /// Empty: this one shares nothing.
+  std::string_view work = {};
   /// Measured in regions as well, under ids with the region's name.
   bool in_regions = true;
   /// A difference in one pixel moves the figure of pixels up to so far away; null for 0.

@@ -32,28 +32,27 @@ constexpr MetricOutput kMsSsimOutputs[] = {
      "The same at five scales, the coarse ones as from farther away.", 1, true}};
 
 void measure_ms_ssim(const MetricInput& input, std::span<double> values) {
-  // The full size is never kept as planes: two would take a third of the pictures' memory.
-  LumaRows rows_a = luma(input.shown_a), rows_b = luma(input.shown_b);
-  LumaPlane a, b;
+  auto scale = shown_ssim(input);
+  SsimMeans means = means_of(*scale, input);
   double product = 1;
-  for (int scale = 0;; ++scale) {
-    const SsimMeans means = ssim_means(rows_a, rows_b);
-    const bool last = scale == kScales - 1;
-    const double mean = last ? means.similarity : means.contrast_structure;
-    product *= std::pow(std::max(mean, 0.0), kScaleWeights[scale]);
-    if (last) break;
-    a = half_size(rows_a);
-    b = half_size(rows_b);
-    rows_a = rows_of(a);
-    rows_b = rows_of(b);
+  for (int i = 0; i < kScales - 1; ++i) {
+    product *= std::pow(std::max(means.contrast_structure, 0.0), kScaleWeights[i]);
+    const std::span<const std::uint8_t> whole;
+    scale = std::make_shared<const SsimScale>(
+        ssim_scale(rows_of(scale->half_a), rows_of(scale->half_b), {&whole, 1}));
+    means = scale->of_region[0];
   }
-  values[0] = product;
+  values[0] = product * std::pow(std::max(means.similarity, 0.0), kScaleWeights[kScales - 1]);
 }
 
 }  // namespace
 
-extern constinit const Metric ms_ssim_metric{kMsSsimOutputs,     Family::kStructure,
-                                             Needs::kFiveScales, "Wang, Simoncelli, Bovik 2003",
-                                             measure_ms_ssim,    false};
+extern constinit const Metric ms_ssim_metric{kMsSsimOutputs,
+                                             Family::kStructure,
+                                             Needs::kFiveScales,
+                                             "Wang, Simoncelli, Bovik 2003",
+                                             measure_ms_ssim,
+                                             kSsimWork,
+                                             false};
 
 }  // namespace lobelia

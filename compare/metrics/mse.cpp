@@ -16,12 +16,13 @@ constexpr MetricOutput kMseOutputs[] = {
      true}};
 
 void measure_mse(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_square_error(input);
+  const auto errors = value_errors(input);
+  values[0] = errors->mean(errors->squares);
 }
 
 }  // namespace
 
 extern constinit const Metric mse_metric{kMseOutputs, Family::kRadiance, Needs::kNothing,
-                                         "textbook", measure_mse};
+                                         "textbook",  measure_mse,       kValueErrors};
 
 }  // namespace lobelia

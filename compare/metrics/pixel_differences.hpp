@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/display_light.hpp"
+#include "compare/metrics/metric.hpp"
 
 namespace lobelia {
 
@@ -13,25 +13,24 @@ namespace lobelia {
 using DifferenceKernel = void (*)(const float* rgb_a, const float* rgb_b, float* differences,
                                   std::size_t count);
 
-struct PixelDifferences {
-  /// In reading order. float32 halves the memory (256 MB for 8192 x 8192 pixels); rounding keeps the order.
-  std::vector<float, ZeroedMemory<float>> values;
-  double mean, max;  ///< 0 for a picture without pixels
+/// Of all pixels, or of the rows that have one where `needed` is not 0; in other rows 0.
+PixelValues pixel_differences(const DisplayLight& a, const DisplayLight& b, DifferenceKernel kernel,
+                              std::span<const std::uint8_t> needed = {});
 
-  /// Writes mean, percentiles of the given shares, and maximum, in this order. All are 0 without pixels.
-  void write_figures(std::initializer_list<double> shares, std::span<double> figures) const;
-};
-
-/// Of the pixels where `region` is not 0; empty: of all. The result does not depend on the number of threads.
-PixelDifferences pixel_differences(const DisplayLight& a, const DisplayLight& b,
-                                   DifferenceKernel kernel,
-                                   std::span<const std::uint8_t> region = {});
+/// Writes the mean of the input's region, the percentiles of the given shares, and the maximum, in this order. All are 0
+/// without pixels. The mean is summed in double, each row by itself and the rows from the top, so that it does not
+/// depend on the number of threads.
+void write_figures(const PixelValues& values, const MetricInput& input,
+                   std::initializer_list<double> shares, std::span<double> figures);
 
 /// The smallest value that at least `share` of the values do not exceed: the nearest rank, without
 /// interpolation, so some pixel has this value. 0 < share <= 1; there must be at least one value, and no NaN.
 double percentile(std::span<const float> values, double share);
 
-/// The value before which `rank` others stand in ascending order; rank < values.size(), no NaN.
+/// The values before which so many others stand in ascending order, of the pixels where `region` is not 0; empty: of all.
+/// Each rank must be less than their number. No NaN.
+std::vector<float> nth_values(std::span<const float> values, std::span<const std::size_t> ranks,
+                              std::span<const std::uint8_t> region = {});
 float nth_value(std::span<const float> values, std::size_t rank);
 
 }  // namespace lobelia

@@ -9,10 +9,16 @@
 // Input:        that of the map.
 // Agrees with:  `idiff -a` ("pixels over"), of opaque pictures; pixelmatch up to version 7 with includeAA, and odiff
 //               without --antialiasing, of opaque pictures.
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <array>
 
 #include "compare/maps/difference_map.hpp"
+#include "compare/metrics/code_values.hpp"
 #include "compare/metrics/flip_error.hpp"
+#include "compare/metrics/shared_work.hpp"
+#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -27,24 +33,38 @@ constexpr OverOutputs over_outputs(std::string_view share_id, std::string_view p
 
 template <const char* kMap>
 void measure_over(const MetricInput& input, std::span<double> values) {
-  const std::vector<float> map = find_difference_map(kMap)->measure(input);
-  std::int64_t over = 0, count = 0;
-  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
-    if (!input.in_region(pixel)) continue;
-    ++count;
-    over += double(map[pixel]) > input.threshold;
-  }
-  values[0] = double(over) / double(std::max<std::int64_t>(count, 1));
-  values[1] = double(over);
+  const auto map = shared(input, kMap, [&] { return find_difference_map(kMap)->measure(input); });
+  struct Counts {
+    std::int64_t over = 0, all = 0;
+  };
+  constexpr std::size_t kPart = std::size_t{1} << 14;
+  const Counts counts = oneapi::tbb::parallel_reduce(
+      oneapi::tbb::blocked_range<std::size_t>(0, map->size(), kPart), Counts(),
+      [&](const auto& part, Counts sum) {
+        for (std::size_t pixel = part.begin(); pixel < part.end(); ++pixel) {
+          const bool inside = input.in_region(pixel);
+          sum.all += inside;
+          sum.over += inside && double((*map)[pixel]) > input.threshold;
+        }
+        looked_at(part.size() * sizeof(float));
+        return sum;
+      },
+      [](const Counts& one, const Counts& other) {
+        return Counts{one.over + other.over, one.all + other.all};
+      });
+  values[0] = double(counts.over) / double(std::max<std::int64_t>(counts.all, 1));
+  values[1] = double(counts.over);
 }
 
 template <const char* kMap>
-constexpr Metric over_metric(const OverOutputs& outputs, Family family, std::string_view source) {
+constexpr Metric over_metric(const OverOutputs& outputs, Family family, std::string_view source,
+                             std::string_view work = kMap) {
   return {.outputs = outputs,
           .family = family,
           .needs = Needs::kNothing,
           .source = source,
           .measure = measure_over<kMap>,
+          .work = work,
           .footprint = std::string_view(kMap).starts_with("flip") ? flip_radius : nullptr,
           .on_request = true};
 }
@@ -74,9 +94,9 @@ constexpr OverOutputs kAbsOver = over_outputs(
 extern constinit const Metric abs_over_metric =
     over_metric<kAbs>(kAbsOver, Family::kRadiance, "idiff -fail, -failpercent");
 extern constinit const Metric code_over_metric =
-    over_metric<kCode>(kCodeOver, Family::kColour, "ours: 8-bit sRGB");
-extern constinit const Metric yiq_over_metric =
-    over_metric<kYiq>(kYiqOver, Family::kColour, "Kotsarenko, Ramos 2010; pixelmatch, odiff");
+    over_metric<kCode>(kCodeOver, Family::kColour, "ours: 8-bit sRGB", kCodeWork);
+extern constinit const Metric yiq_over_metric = over_metric<kYiq>(
+    kYiqOver, Family::kColour, "Kotsarenko, Ramos 2010; pixelmatch, odiff", kCodeWork);
 extern constinit const Metric ciede2000_over_metric =
     over_metric<kCiede2000>(kCiede2000Over, Family::kColour, "Sharma, Wu, Dalal 2005");
 extern constinit const Metric delta_e_itp_over_metric =

@@ -10,7 +10,6 @@
 //               ours + 20 log10(the other peak / peak). 8-bit tools take 255.
 #include "compare/metrics/picture_part.hpp"
 #include "core/constants.hpp"
-#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {
@@ -21,13 +20,14 @@ constexpr MetricOutput kPsnrOutputs[] = {
      "In decibels, of the reference’s peak; more is better.", kInfinity}};
 
 void measure_psnr(const MetricInput& input, std::span<double> values) {
-  const double error = mean_square_error(input), peak = peak_value(input.b);
+  const auto errors = value_errors(input);
+  const double error = errors->mean(errors->squares), peak = reference_peak(input);
   values[0] = error == 0 ? kInfinity : 20 * std::log10(peak) - 10 * std::log10(error);
 }
 
 }  // namespace
 
 extern constinit const Metric psnr_metric{kPsnrOutputs, Family::kRadiance, Needs::kNothing,
-                                          "textbook", measure_psnr};
+                                          "textbook",   measure_psnr,      kValueErrors};
 
 }  // namespace lobelia

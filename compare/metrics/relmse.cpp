@@ -13,21 +13,20 @@
 namespace lobelia {
 namespace {
 
-constexpr double kRelmseEpsilon = 0.01;
-
 constexpr MetricOutput kRelmseOutputs[] = {
     {"relmse.eps=0.01", "Relative mean square difference", Unit::kPlain, Better::kLower, false,
      "mean of (a - b)^2 / (b^2 + 0.01)",
      "Each squared difference divided by the reference’s squared value plus 0.01.", 0, true}};
 
 void measure_relmse(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_over(
-      input, [](double a, double b) { return (a - b) * (a - b) / (b * b + kRelmseEpsilon); });
+  const auto errors = value_errors(input);
+  values[0] = errors->mean(errors->relative);
 }
 
 }  // namespace
 
-extern constinit const Metric relmse_metric{kRelmseOutputs, Family::kRadiance, Needs::kNothing,
-                                            "Rousselle, Knaus, Zwicker 2011", measure_relmse};
+extern constinit const Metric relmse_metric{kRelmseOutputs,  Family::kRadiance,
+                                            Needs::kNothing, "Rousselle, Knaus, Zwicker 2011",
+                                            measure_relmse,  kValueErrors};
 
 }  // namespace lobelia

@@ -15,12 +15,13 @@ constexpr MetricOutput kRmseOutputs[] = {
      "root mean square error of all RGB values", "Over all pixels and channels, in radiance."}};
 
 void measure_rmse(const MetricInput& input, std::span<double> values) {
-  values[0] = std::sqrt(mean_square_error(input));
+  const auto errors = value_errors(input);
+  values[0] = std::sqrt(errors->mean(errors->squares));
 }
 
 }  // namespace
 
 extern constinit const Metric rmse_metric{kRmseOutputs, Family::kRadiance, Needs::kNothing,
-                                          "textbook", measure_rmse};
+                                          "textbook",   measure_rmse,      kValueErrors};
 
 }  // namespace lobelia

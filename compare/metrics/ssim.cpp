@@ -11,7 +11,7 @@
 // Input:        DisplayLight (linear, clipped), encoded by sRGB's curve; Rec. 709 luma of that, not
 //               rounded to 8 bits.
 // Agrees with:  grey 128 against grey 160 of 255, 0.975614, to the six published digits; a plain double
-//               loop over windows, to 1e-12.
+//               loop over windows, to 1e-12; with luma in double, to 1e-6.
 // Differs:      Wang's ssim.m first shrinks a picture of more than 384 pixels. This one never does: ms_ssim
 //               covers greater distances. scikit-image repeats pixels beyond the border and then cuts off
 //               5, which is the same region. Its defaults (7 x 7 box, Bessel's correction) are not Wang's.
@@ -25,7 +25,7 @@ constexpr MetricOutput kSsimOutputs[] = {
      "How alike the structure is, 1 for equal pictures; more is better.", 1, true}};
 
 void measure_ssim(const MetricInput& input, std::span<double> values) {
-  values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b), input.region).similarity;
+  values[0] = means_of(*shown_ssim(input), input).similarity;
 }
 
 }  // namespace
@@ -35,6 +35,7 @@ extern constinit const Metric ssim_metric{kSsimOutputs,
                                           Needs::kOneWindow,
                                           "Wang, Bovik, Sheikh, Simoncelli 2004",
                                           measure_ssim,
+                                          kSsimWork,
                                           true,
                                           [](const MetricInput&) { return kSsimSide / 2; }};
 

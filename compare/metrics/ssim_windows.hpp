@@ -19,7 +19,8 @@ struct LumaPlane {
 /// Luma row by row: a plane of a large picture would take too much memory.
 struct LumaRows {
   int width = 0, height = 0;
-  std::function<void(int y, float* row)> fill;  ///< may be called on many threads
+  /// Writes row.size() pixels of row y, from column `first` on. May be called on many threads.
+  std::function<void(int y, int first, std::span<float> row)> fill;
 };
 
 /// Rec. 709 luma of the sRGB-encoded light (IEC 61966-2-1), not rounded to 8 bits. The shown picture must
@@ -28,17 +29,28 @@ LumaRows luma(const DisplayLight& shown);
 /// The plane must outlive its rows.
 LumaRows rows_of(const LumaPlane& plane);
 
-/// Half the size, rounded up: means of 2 x 2 pixels. An odd border repeats its pixels.
-LumaPlane half_size(const LumaRows& whole);
-
+/// Means over all windows of kSsimSide pixels a side that lie wholly inside the picture, and whose middle is in a region.
 struct SsimMeans {
-  double similarity;          ///< l c s, the SSIM of a window, mean over all windows
-  double contrast_structure;  ///< c s, without the luminance term
+  double similarity = 0;          ///< l c s, the SSIM of a window
+  double contrast_structure = 0;  ///< c s, without the luminance term
 };
 
-/// Over all windows of kSsimSide pixels a side that lie wholly inside the picture, and whose middle is a pixel where
-/// `region` is not 0, unless that is empty. There must be one.
-SsimMeans ssim_means(const LumaRows& a, const LumaRows& b,
-                     std::span<const std::uint8_t> region = {});
+/// What SSIM sees of two pictures at one scale.
+struct SsimScale {
+  std::vector<SsimMeans> of_region;  ///< 0 without a window
+  /// The next scale, rounded up: means of 2 x 2 pixels. An odd border repeats its pixels.
+  LumaPlane half_a, half_b;
+};
+
+/// Of regions by pixel, not 0 inside; an empty one is the whole picture. The sides must be at least kSsimSide.
+SsimScale ssim_scale(const LumaRows& a, const LumaRows& b,
+                     std::span<const std::span<const std::uint8_t>> regions);
+
+/// The scale of the pictures themselves, of the regions of input.regions or else of its own, for all metrics of
+/// kSsimWork.
+std::shared_ptr<const SsimScale> shown_ssim(const MetricInput& input);
+/// The means of the input's region.
+SsimMeans means_of(const SsimScale& scale, const MetricInput& input);
+inline constexpr std::string_view kSsimWork = "ssim";
 
 }  // namespace lobelia

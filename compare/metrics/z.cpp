@@ -48,6 +48,6 @@ void measure_z(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern constinit const Metric z_metric{
-    kZOutputs, Family::kRadiance, Needs::kNoise, "Student's t, Sidak 1967", measure_z, false};
+    kZOutputs, Family::kRadiance, Needs::kNoise, "Student's t, Sidak 1967", measure_z, {}, false};
 
 }  // namespace lobelia

@@ -47,14 +47,15 @@ struct Figure {
 
 template <class Visit>
 void measure_each(std::span<const Metric* const> list, const MetricInput& input, Visit visit) {
-  std::vector<double> values;
-  for (const Metric* metric : list) {
-    if (metric->needs == Needs::kNoise || !is_measurable(*metric, input)) continue;
-    values.assign(metric->outputs.size(), 0.0);
-    measure_metric(*metric, input, values);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (metric->outputs[i].better != Better::kNeither) visit(metric->outputs[i], values[i]);
-  }
+  MetricList measurable;
+  std::ranges::copy_if(list, std::back_inserter(measurable), [&](const Metric* metric) {
+    return metric->needs != Needs::kNoise && is_measurable(*metric, input);
+  });
+  const auto values = measure_metrics(measurable, input);
+  for (std::size_t m = 0; m < values.size(); ++m)
+    for (std::size_t i = 0; i < values[m].size(); ++i)
+      if (const MetricOutput& output = measurable[m]->outputs[i]; output.better != Better::kNeither)
+        visit(output, values[m][i]);
 }
 
 /// With `together`, all values of a picture with shared noise get the same multiple of their errors.

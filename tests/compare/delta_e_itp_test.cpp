@@ -88,6 +88,42 @@ TEST(DeltaEItp, PutsWhiteAt203CandelasWhichIs58PerCentOfPq) {
   EXPECT_NEAR(signal(100), 0.5080784215173948, 1e-14);
 }
 
+/// The formulas as they stand, by the functions of the standard library.
+Itp plain_itp(Rgb c) {
+  const double r = 203 * (0.6274 * c.r + 0.3293 * c.g + 0.0433 * c.b),
+               g = 203 * (0.0691 * c.r + 0.9195 * c.g + 0.0114 * c.b),
+               b = 203 * (0.0164 * c.r + 0.0880 * c.g + 0.8956 * c.b);
+  const auto signal = [](double luminance) {
+    const double y = std::pow(luminance / 10000, 2610.0 / 16384);
+    return std::pow((3424.0 / 4096 + 2413.0 / 128 * y) / (1 + 2392.0 / 128 * y), 2523.0 / 32);
+  };
+  const double l = signal((1688 * r + 2146 * g + 262 * b) / 4096),
+               m = signal((683 * r + 2951 * g + 462 * b) / 4096),
+               s = signal((99 * r + 309 * g + 3688 * b) / 4096);
+  return {(l + m) / 2, (6610 * l - 13613 * m + 7003 * s) / 8192,
+          (17933 * l - 17390 * m - 543 * s) / 4096};
+}
+
+TEST(DeltaEItp, OfEachPixelIsThePlainFormulasWithinItsBound) {
+  const int width = 203, height = 97;
+  const Image a = fixtures::noise(width, height, 1, 1.1f);
+  Image b = fixtures::noise(width, height, 2, 1.1f);
+  for (std::size_t i = 0; i < b.values().size(); ++i) {
+    // From far to equal, and as dark as floats go.
+    if (i % 7 < 3) b.values()[i] = a.values()[i] * (1 + 1e-4f * b.values()[i]);
+    if (i % 31 < 9) b.values()[i] *= std::pow(10.0f, -float(i % 38));
+  }
+  std::copy_n(a.values().begin(), 3000, b.values().begin());
+  const DisplayLight shown_a(a, 0), shown_b(b, 0);
+  const PixelValues values = delta_e_itp_of_pixels(shown_a, shown_b);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Itp p = plain_itp(fixtures::shown_at(shown_a, i)),
+              q = plain_itp(fixtures::shown_at(shown_b, i));
+    const double plain = 720 * std::hypot(p.i - q.i, p.t - q.t, p.p - q.p);
+    ASSERT_NEAR(values[i], plain, 1e-7 * plain + 1e-9) << i;
+  }
+}
+
 TEST(DeltaEItp, LooksAtTheExposedPicture) {
   const Image a = fixtures::flat(8, 8, 0.2f, 0.2f, 0.2f),
               b = fixtures::flat(8, 8, 0.4f, 0.4f, 0.4f);

@@ -22,7 +22,7 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 
-double mean(const std::vector<float>& values) {
+double mean(std::span<const float> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 

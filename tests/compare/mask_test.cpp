@@ -99,7 +99,7 @@ TEST(MaskedFigures, AreThoseOfPlainLoopsOverThePixelsInsideAndOutside) {
     ComparisonOptions options;
     options.mask = random_mask(a.pixel_count(), seed);
     const Comparison comparison = compare(a, b, options);
-    std::map<std::string, std::vector<float>> maps;
+    std::map<std::string, PixelValues> maps;
     for (const char* id : {"ciede2000", "delta_e_itp", "flip.ldr"})
       maps[id] = measure_difference_map(*find_difference_map(id), a, b, options.viewing);
     for (const bool is_inside : {true, false}) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "compare/metrics/catalogue.hpp"
+#include "compare/metrics/picture_part.hpp"
 #include "core/scratch_memory.hpp"
 #include "tests/compare/pictures.hpp"
 
@@ -79,6 +80,48 @@ TEST(EveryMetric, IsTheSameBitForBitWhereThePicturesAreInFiles) {
   EXPECT_EQ(figures(), in_memory);
   keep_large_pieces_in_files(0);
   EXPECT_GT(in_memory.size(), 50u);
+}
+
+TEST(EveryMetric, IsTheSameBitForBitMeasuredWithTheOthersAsAlone) {
+  for (const auto& [a, b] : pairs()) {
+    std::vector<std::uint8_t> mask(a.pixel_count()), highlight(mask);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      mask[i] = i % 5 < 2;
+      highlight[i] = i % 3 == 0 && i > mask.size() / 2;
+    }
+    MetricInput input = fixtures::input(a, b, &kTolerance);
+    input.mask = mask;
+    input.highlight = highlight;
+    input.shown_tail = ShownPair{DisplayLight(a, 2), DisplayLight(b, 2)};
+    MetricList list;
+    for (const Metric* metric : metrics())
+      if (is_measurable(*metric, input)) list.push_back(metric);
+    const auto together = measure_metrics(list, input);
+    ASSERT_EQ(together.size(), list.size());
+    for (std::size_t m = 0; m < list.size(); ++m)
+      EXPECT_THAT(together[m],
+                  Pointwise(::testing::NanSensitiveDoubleEq(), measure(*list[m], input)))
+          << list[m]->outputs[0].id << ", " << a.width() << " x " << a.height();
+  }
+}
+
+TEST(ValueErrors, AreThoseOfALongerSumWithinTheirBound) {
+  const Image a = fixtures::noise(613, 401, 1, 3.0f), b = fixtures::highlight(613, 401, 9, 2.5);
+  const auto errors = value_errors(fixtures::input(a, b));
+  long double sizes = 0, squares = 0, differences = 0, relative = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    const long double reference = b.values()[i], difference = a.values()[i] - reference;
+    sizes += std::abs(difference);
+    squares += difference * difference;
+    differences += difference;
+    relative += difference * difference / (reference * reference + 0.01L);
+  }
+  const double roundings = (3 * 613 + 401) * 0x1p-53;
+  EXPECT_NEAR(errors->sizes, double(sizes), roundings * double(sizes));
+  EXPECT_NEAR(errors->squares, double(squares), roundings * double(squares));
+  EXPECT_NEAR(errors->differences, double(differences), roundings * double(sizes));
+  EXPECT_NEAR(errors->relative, double(relative), roundings * double(relative));
+  EXPECT_EQ(errors->count, a.values().size());
 }
 
 TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {

@@ -37,14 +37,13 @@ Coded random_codes(int width, int height, unsigned seed, const std::vector<std::
 
 TEST(CodeValues, OfADecodedEightBitPictureAreItsOwn) {
   const Coded picture = random_codes(64, 64, 1);
-  EXPECT_EQ(code_values(DisplayLight(picture.image, 0)), picture.codes);
-  EXPECT_EQ(code_values(DisplayLight(fixtures::flat(1, 1, -1, 0, 9), 0)),
-            (std::vector<std::uint8_t>{0, 0, 255}));
+  EXPECT_TRUE(std::ranges::equal(code_values(DisplayLight(picture.image, 0)), picture.codes));
+  EXPECT_EQ(code_values(DisplayLight(fixtures::flat(1, 1, -1, 0, 9), 0)), (CodeValues{0, 0, 255}));
 }
 
 TEST(CodeValues, OfAnyLightAreThoseOfTheDisplayToHalfAStep) {
   const Image image = fixtures::noise(64, 64, 3, 1.1f);
-  const std::vector<std::uint8_t> codes = code_values(DisplayLight(image, 0));
+  const CodeValues codes = code_values(DisplayLight(image, 0));
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const double light = std::min(double(image.values()[i]), 1.0);
     const double encoded =

@@ -52,10 +52,34 @@ std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b,
   return {lcs / windows, cs / windows};
 }
 
+double plain_luma(Rgb light) {
+  const auto code = [](double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  };
+  return 0.2126 * code(light.r) + 0.7152 * code(light.g) + 0.0722 * code(light.b);
+}
+
+/// Means of 2 x 2 pixels, where an odd border repeats.
+LumaPlane half(const LumaPlane& whole) {
+  LumaPlane result{(whole.width + 1) / 2, (whole.height + 1) / 2, {}};
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x) {
+      const auto at = [&](int i, int j) {
+        return whole.row(
+            std::min(2 * y + j, whole.height - 1))[std::min(2 * x + i, whole.width - 1)];
+      };
+      result.values.push_back(((at(0, 0) + at(1, 0)) + (at(0, 1) + at(1, 1))) / 4);
+    }
+  return result;
+}
+
 LumaPlane shown_luma(const Image& image) {
   const LumaRows rows = luma(DisplayLight(image, 0));
   LumaPlane plane{rows.width, rows.height, std::vector<float>(image.pixel_count())};
-  for (int y = 0; y < rows.height; ++y) rows.fill(y, plane.values.data() + y * rows.width);
+  for (int y = 0; y < rows.height; ++y)
+    rows.fill(
+        y, 0,
+        std::span(plane.values).subspan(std::size_t(y * rows.width), std::size_t(rows.width)));
   return plane;
 }
 
@@ -72,6 +96,18 @@ TEST(Ssim, AgreesWithADoubleLoopOverTheWindows) {
                 b = fixtures::noise(width, height, 2, 1);
     EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(shown_luma(a), shown_luma(b))[0], 1e-12)
         << width << " x " << height;
+  }
+}
+
+TEST(Ssim, OfLumaInDoubleIsTheSameToSixDigits) {
+  for (const float scale : {1.0f, 0.1f, 0.01f}) {
+    const Image a = fixtures::noise(64, 64, 1, scale), b = fixtures::highlight(64, 64, 4, scale);
+    std::array<LumaPlane, 2> planes{LumaPlane{64, 64, {}}, LumaPlane{64, 64, {}}};
+    for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+      planes[0].values.push_back(float(plain_luma(fixtures::shown_at(DisplayLight(a, 0), i))));
+      planes[1].values.push_back(float(plain_luma(fixtures::shown_at(DisplayLight(b, 0), i))));
+    }
+    EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(planes[0], planes[1])[0], 1e-6);
   }
 }
 
@@ -138,8 +174,8 @@ TEST(MsSsim, IsTheProductOfThePowersOfItsScales) {
   for (const double weight : {0.0448, 0.2856, 0.3001, 0.2363, 0.1333}) {
     const bool last = weight == 0.1333;
     expected *= std::pow(plain_ssim(la, lb)[last ? 0 : 1], weight);
-    la = half_size(rows_of(la));
-    lb = half_size(rows_of(lb));
+    la = half(la);
+    lb = half(lb);
   }
   EXPECT_LT(expected, 0.99);
   EXPECT_NEAR(compare(a, b, {}).value("ms_ssim"), expected, 1e-12);
@@ -157,17 +193,13 @@ TEST(MsSsim, IsLeftOutBelow176Pixels) {
 }
 
 TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
-  const Image image = fixtures::noise(37, 3, 4, 1.1f);
+  Image image = fixtures::noise(37, 301, 4, 1.1f);
+  // The dark and the bright end of the curve too.
+  for (std::size_t i = 0; i < image.values().size(); i += 2) image.values()[i] *= 0.01f;
   const DisplayLight shown(image, 0);
   const LumaPlane plane = shown_luma(image);
-  const auto code = [](double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-  };
-  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
-    const Rgb light = fixtures::shown_at(shown, i);
-    EXPECT_NEAR(plane.values[i],
-                0.2126 * code(light.r) + 0.7152 * code(light.g) + 0.0722 * code(light.b), 1e-7);
-  }
+  for (std::size_t i = 0; i < image.pixel_count(); ++i)
+    EXPECT_NEAR(plane.values[i], plain_luma(fixtures::shown_at(shown, i)), 3e-7);
 }
 
 TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
@@ -175,11 +207,28 @@ TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
   EXPECT_NEAR(shown_luma(fixtures::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
 }
 
-TEST(Luma, HalfTheSizeHasTheMeansAndRepeatsAnOddBorder) {
-  const LumaPlane plane{3, 3, {0, 1, 2, 3, 4, 5, 6, 7, 8}};
-  const LumaPlane half = half_size(rows_of(plane));
-  EXPECT_EQ(half.width, 2);
-  EXPECT_EQ(half.values, (std::vector<float>{2, 3.5, 6.5, 8}));
+TEST(SsimScale, HasThePlainMeansOfItsRegionsAndTheNextScaleWhereverATileEnds) {
+  // One tile, and several with their last ones narrow, low, odd and even.
+  for (const auto& [width, height] :
+       {std::pair{11, 11}, std::pair{267, 141}, std::pair{530, 139}, std::pair{276, 268}}) {
+    const LumaPlane a = shown_luma(fixtures::noise(width, height, 1, 1.2f));
+    LumaPlane b = a;
+    // The pictures differ in some pixels of each tile, at the border too.
+    for (const std::size_t step : {std::size_t{1}, std::size_t{997}, b.values.size() - 1}) {
+      for (std::size_t i = 0; i < b.values.size(); i += step) b.values[i] = 1 - b.values[i];
+      std::vector<std::uint8_t> some(a.values.size());
+      for (std::size_t i = 0; i < some.size(); ++i) some[i] = i % 7 != 3;
+      const std::span<const std::uint8_t> regions[] = {{}, some};
+      const SsimScale scale = ssim_scale(rows_of(a), rows_of(b), regions);
+      for (const bool in_some : {false, true}) {
+        const auto plain = plain_ssim(a, b, in_some ? some : std::vector<std::uint8_t>());
+        EXPECT_NEAR(scale.of_region[in_some].similarity, plain[0], 1e-12);
+        EXPECT_NEAR(scale.of_region[in_some].contrast_structure, plain[1], 1e-12);
+      }
+      EXPECT_EQ(scale.half_a.values, half(a).values);
+      EXPECT_EQ(scale.half_b.values, half(b).values);
+    }
+  }
 }
 
 }  // namespace
