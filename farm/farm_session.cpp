@@ -11,6 +11,7 @@
 #include "core/threads.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
+#include "records/farm_file.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -270,14 +271,12 @@ void FarmSession::write_farm_record() const {
   for (std::size_t e = 0; e < work_.engines.size(); ++e)
     record.engines[e + grid.ours].refused_cells = work_.graph.refusals(e);
   const std::scoped_lock lock(mutex_);
-  for (std::size_t i = 0; i < status_.size(); ++i) {
+  records::write_farm(directory_ / "farm.json", record, status_.size(), [&](std::size_t i) {
     const Cell& cell = work_.cells.cells[i];
-    records::FarmCell& one = record.cells.emplace_back();
-    one.id = cell.id;
-    one.status = status_[i];
+    records::FarmCell one{cell.id, status_[i], {}};
     for (const auto& [name, value] : cell.axes) one.axes.emplace_back(name, value);
-  }
-  records::write_record(directory_ / "farm.json", record, AtLink::kReplace);
+    return one;
+  });
 }
 
 bool FarmSession::has_lost(const std::vector<JobState>& states) const {
