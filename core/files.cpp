@@ -47,6 +47,8 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
   return target;
 }
 
+thread_local int flushes_later = 0;  ///< FlushLater objects of the thread
+
 /// Whether the path still names the open file.
 bool is_at(const fs::path& path, int fd) {
   struct stat there {
@@ -105,6 +107,10 @@ void PartFile::append(std::span<const std::uint8_t> bytes) {
   size_ += bytes.size();
 }
 
+void PartFile::append(std::string_view text) {
+  append(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
 void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -119,7 +125,7 @@ void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> byte
 void PartFile::flush() {
   if (!file_) return;
   // Without fsync a full disk may be noticed only after the rename.
-  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
+  if (flushes_later == 0 && ::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
   if (::close(file_.release()) != 0) fail(errno);
 }
 
@@ -136,6 +142,10 @@ void PartFile::finish() {
   flush();
   if (::rename(part_.path().c_str(), target_.c_str()) != 0) fail(errno);
 }
+
+FlushLater::FlushLater() { ++flushes_later; }
+
+FlushLater::~FlushLater() { --flushes_later; }
 
 FilesTogether* FilesTogether::current_ = nullptr;
 
@@ -166,8 +176,9 @@ void write_file(const fs::path& path, std::span<const std::uint8_t> bytes, AtLin
 }
 
 void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
-  write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()),
-             at_link);
+  PartFile file(path, at_link);
+  file.append(text);
+  file.finish();
 }
 
 void require_writable(const fs::path& path) {

@@ -38,9 +38,11 @@ class PartFile {
   PartFile(PartFile&&) = default;
   ~PartFile();
   void append(std::span<const std::uint8_t> bytes);
+  void append(std::string_view text);
   /// Overwrites bytes that are there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
+  const std::filesystem::path& part() const { return part_.path(); }  ///< its temporary name
   /// Flushes to the disk, then renames. If there is a FilesTogether, its commit() does both instead.
   void finish();
 
@@ -52,6 +54,15 @@ class PartFile {
   std::filesystem::path path_, target_;
   TemporaryPath part_;
   std::uint64_t size_ = 0;
+};
+
+/// While this lives, files that its thread finishes are not flushed to the disk: whoever has it does that (GroupFlush).
+class FlushLater {
+ public:
+  FlushLater();
+  ~FlushLater();
+  FlushLater(const FlushLater&) = delete;
+  FlushLater& operator=(const FlushLater&) = delete;
 };
 
 /// Publishes all files of a command at once: while this lives, finished PartFiles keep their temporary names until

@@ -92,13 +92,12 @@ std::vector<std::string> texts(const OIIO::ImageSpec& spec, const char* name) {
   return result;
 }
 
-/// Uses an input of its own, because some readers fail for good once they are asked for a part that does not exist.
-std::vector<PicturePart> parts_of(const PictureBytes& file) {
-  const auto input = open(file);
+/// Afterwards `input` may be of no use: some readers fail for good once they are asked for a part that does not exist.
+std::vector<PicturePart> parts_of(const PictureBytes& file, OIIO::ImageInput& input) {
   std::vector<PicturePart> parts;
-  for (int i = 0; input->seek_subimage(i, 0); ++i) {
+  for (int i = 0; input.seek_subimage(i, 0); ++i) {
     if (i == kMaxParts) unreadable(file.path, fmt::format("it has more than {} parts", kMaxParts));
-    const OIIO::ImageSpec spec = input->spec(i);
+    const OIIO::ImageSpec spec = input.spec(i);
     if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
       unreadable(file.path,
                  fmt::format("it has {} channels; 1 to {} are read", spec.nchannels, kMaxChannels));
@@ -106,7 +105,7 @@ std::vector<PicturePart> parts_of(const PictureBytes& file) {
     for (std::size_t c = 0; c < std::min(std::size_t(spec.nchannels), spec.channelnames.size());
          ++c)
       part.channels.push_back(spec.channelnames[c]);
-    part.mip_levels = count_mip_levels(*input, i);
+    part.mip_levels = count_mip_levels(input, i);
     part.view = spec.get_string_attribute("view");
     part.views = texts(spec, "multiView");
     parts.push_back(std::move(part));
@@ -406,8 +405,9 @@ void read_in_bands(const Reader& whole, const PictureLayer& layer, const ColourM
 
 Picture read(const PictureBytes& file, const std::string& layer_name) {
   const std::filesystem::path& path = file.path;
-  const std::vector<PicturePart> parts = parts_of(file);
-  const auto input = open(file);
+  auto input = open(file);
+  const std::vector<PicturePart> parts = parts_of(file, *input);
+  if (input->format_name() != std::string_view("openexr")) input = open(file);
   const PictureLayer layer = find_layer(path.string(), parts, layer_name);
   const int part = int(layer.part);
   const OIIO::ImageSpec spec = input->spec(part);
@@ -455,7 +455,8 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
 
 std::vector<std::string> list_layers(const PictureBytes& file) {
   std::vector<std::string> names;
-  for (const PictureLayer& layer : picture_layers(parts_of(file))) names.push_back(layer.name);
+  for (const PictureLayer& layer : picture_layers(parts_of(file, *open(file))))
+    names.push_back(layer.name);
   return names;
 }
 

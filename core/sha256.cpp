@@ -5,6 +5,7 @@
 #include <nettle/sha2.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <charconv>
 #include <vector>
 
@@ -51,7 +52,7 @@ Sha256Digest sha256_of_file(const std::filesystem::path& path) {
   if (!S_ISREG(status.st_mode))
     throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
   Hasher one;
-  std::vector<char> piece(kPieceBytes);
+  std::vector<char> piece(std::min(kPieceBytes, std::size_t(status.st_size) + 1));
   while (true) {
     const ssize_t n = retried([&] { return ::read(file.get(), piece.data(), piece.size()); });
     if (n < 0) fail(errno);

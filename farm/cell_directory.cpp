@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "core/files.hpp"
 #include "core/text.hpp"
@@ -75,6 +77,7 @@ void link_or_copy(const fs::path& cached, const HeldDirectory& directory, const 
 void place_file(const fs::path& cached, const HeldDirectory& directory, const std::string& name) {
   const fs::path target = directory.path() / name;
   for (int attempt = 0; !is_same_file(cached, target); ++attempt) {
+    if (::linkat(AT_FDCWD, cached.c_str(), directory.fd(), name.c_str(), 0) == 0) return;
     const std::string part = part_path(name).string();
     link_or_copy(cached, directory, part, target);
     const int error =
@@ -207,14 +210,18 @@ void CellDirectory::remove_abandoned() const {
   if (const HeldDirectory directory = held()) remove_abandoned_parts(directory);
 }
 
-std::string CellDirectory::write(const ResultCache& cache, const CellRecords& records,
-                                 const std::vector<CellProblem>& problems) const {
+void CellDirectory::write(const ResultCache& cache, const CellRecords& records,
+                          const std::vector<CellProblem>& problems, GroupFlush& flush,
+                          std::function<void(const std::string& status)> on_status) const {
   make_directories(farm_directory_);
   const HeldDirectory directory = HeldDirectory(farm_directory_)
                                       .make_below("cells", kCross)
                                       .make_below(directory_.filename().string(), kCross);
   remove_abandoned_parts(directory);
-  std::set<std::string> foreign = names_of_all(outside_engines());
+  std::set<std::string> foreign;
+  if (const std::vector<std::string> there = directory.names(); !there.empty())
+    std::ranges::set_intersection(there, names_of_all(outside_engines()),
+                                  std::inserter(foreign, foreign.end()));
   Removal removal = removal_from(directory, foreign);
   // The old record is about files that change now.
   removal.remove(kCellRecordFile);
@@ -225,7 +232,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     complete = complete && result;
     if (!result) continue;
     for (const auto& [name, bytes, sha256, modified] : result->files) {
-      if (removal.directory(name)) removal.remove(name);  // only if empty
+      if (foreign.contains(name) && removal.directory(name)) removal.remove(name);  // only if empty
       place_file(cache.file((*graph_)[job].key, name), directory, name);
       foreign.erase(name);
     }
@@ -252,8 +259,14 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     record.status = "failed";
   else if (!complete)
     record.status = "missing";
-  records::write_record(directory_ / kCellRecordFile, record, AtLink::kReplace);
-  return record.status;
+  const auto part = std::make_shared<PartFile>(directory_ / kCellRecordFile, AtLink::kReplace);
+  part->append(records::record_text(record));
+  flush.add({part->part()},
+            [part, &flush, status = record.status, on_status = std::move(on_status)] {
+              const auto is_flushed = flush.later();
+              part->finish();
+              on_status(status);
+            });
 }
 
 records::Cell CellDirectory::cell_record(const CellRecords& records) const {

@@ -1,6 +1,7 @@
 // A cell's directory: the files of its results, as links into the cache, and cell.json.
 #pragma once
 
+#include "core/group_flush.hpp"
 #include "farm/job_states.hpp"
 
 namespace lobelia {
@@ -38,11 +39,12 @@ class CellDirectory {
   /// The status in cell.json; empty unless it is about these results, without problems, and the cache's files are in place.
   std::string current_status(const ResultCache& cache, const CellRecords& records) const;
 
-  /// Puts the results' files there, removes old ones, and writes cell.json last. Returns the status: "pass", "differs",
-  /// "undecided" (too noisy to tell), "unchecked" (nothing to compare with), "failed" (there are problems) or "missing".
-  /// Throws Error(kOutput), also if cells/ or the cell is a symbolic link.
-  std::string write(const ResultCache& cache, const CellRecords& records,
-                    const std::vector<CellProblem>& problems) const;
+  /// Puts the results' files there, removes old ones, and writes cell.json last, by `flush`: then `on_status` gets the
+  /// status, "pass", "differs", "undecided" (too noisy to tell), "unchecked" (nothing to compare with), "failed" (there are
+  /// problems) or "missing". Throws Error(kOutput), also if cells/ or the cell is a symbolic link.
+  void write(const ResultCache& cache, const CellRecords& records,
+             const std::vector<CellProblem>& problems, GroupFlush& flush,
+             std::function<void(const std::string& status)> on_status) const;
 
   /// Removes half-written files of killed farms.
   void remove_abandoned() const;

@@ -182,7 +182,8 @@ ChunkSummary exec_chunk(const fs::path& file, int threads) {
       graph, &cache, {.wanted = is_of_chunk, .failures = JobStateFilter::Failures::kOfOthersCount});
   std::vector<std::size_t> order(graph.cell_count());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  summary.work = run_jobs(graph, cache, options, states, order, [](std::size_t) {});
+  summary.work = run_jobs(graph, cache, options, states, order, cache.directory(),
+                          [](std::size_t, GroupFlush&) {});
   std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
   for (JobIndex job = 0; job < graph.size(); ++job) {
     if (!is_of_chunk(job)) continue;

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "farm/job.hpp"
-#include "records/record.hpp"
+#include "records/farm_file.hpp"
 
 namespace lobelia {
 namespace {
@@ -18,7 +18,7 @@ std::vector<records::FarmEngine> engines_before(const fs::path& farm_directory) 
   std::error_code ignored;
   if (farm_directory.empty() || !fs::exists(farm_directory / "farm.json", ignored)) return {};
   try {
-    return records::read_record<records::Farm>(farm_directory / "farm.json").engines;
+    return records::read_farm(farm_directory / "farm.json").engines;
   } catch (const std::exception&) {
     return {};  // the farm writes it anew soon
   }

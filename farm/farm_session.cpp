@@ -11,6 +11,7 @@
 #include "core/threads.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
+#include "records/farm_file.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -144,12 +145,16 @@ void FarmSession::look_at_cells() {
   const std::size_t count = work_.graph.cell_count();
   std::vector<std::uint8_t> unfinished(count);
   const auto before = std::chrono::steady_clock::now();
+  std::exception_ptr failure;
+  GroupFlush flush({directory_}, [&](std::exception_ptr error) { failure = std::move(error); });
   ThreadLimit(options_.threads).run([&] {
     states_ = job_states(work_.graph, &cache_, work_.filter(options_),
                          [&](std::size_t cell, const CellStates& found) {
-                           unfinished[cell] = !look_at(cell, found);
+                           unfinished[cell] = !look_at(cell, found, flush);
                          });
   });
+  flush.finish();
+  if (failure) std::rethrow_exception(failure);
   summary_.cached_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   for (const std::size_t cell : coarse_to_fine(work_.cells.cells))
@@ -157,7 +162,7 @@ void FarmSession::look_at_cells() {
 }
 
 /// Whether the cell has all results. If not, removes its record, which is about other results.
-bool FarmSession::look_at(std::size_t cell, const CellStates& found) {
+bool FarmSession::look_at(std::size_t cell, const CellStates& found, GroupFlush& flush) {
   const JobGraph& graph = work_.graph;
   bool complete = true;
   std::size_t kept = 0;
@@ -182,12 +187,24 @@ bool FarmSession::look_at(std::size_t cell, const CellStates& found) {
     there.forget();
     return false;
   }
-  status_[cell] = there.current_status(cache_, found.records);
-  if (status_[cell].empty())
-    status_[cell] = there.write(cache_, found.records, {});
-  else
-    there.remove_abandoned();
+  std::string status = there.current_status(cache_, found.records);
+  if (status.empty()) {
+    write_cell(cell, found.records, {}, flush);
+    return true;
+  }
+  there.remove_abandoned();
+  const std::scoped_lock lock(mutex_);
+  status_[cell] = std::move(status);
   return true;
+}
+
+void FarmSession::write_cell(std::size_t cell, const CellRecords& records,
+                             const std::vector<CellProblem>& problems, GroupFlush& flush) {
+  cell_directory(cell).write(cache_, records, problems, flush,
+                             [this, cell](const std::string& status) {
+                               const std::scoped_lock lock(mutex_);
+                               status_[cell] = status;
+                             });
 }
 
 void FarmSession::take_warnings(const CellRecords& records) {
@@ -195,7 +212,7 @@ void FarmSession::take_warnings(const CellRecords& records) {
     summary_.warnings.insert(records[0]->warnings->begin(), records[0]->warnings->end());
 }
 
-void FarmSession::finish_cell(std::size_t cell) {
+void FarmSession::finish_cell(std::size_t cell, GroupFlush& flush) {
   JobGraph& graph = work_.graph;
   CellRecords records = find_records(graph, cache_, cell);
   const auto is_there = [&](JobIndex job) { return records[graph.place(job)].has_value(); };
@@ -211,9 +228,8 @@ void FarmSession::finish_cell(std::size_t cell) {
     if (const auto failure = is_there(job) ? std::nullopt : cache_.failure(graph[job].key))
       problems.push_back({{graph.whose(job), failure->message, failure->failure, failure->attempts},
                           cache_.failure_log(graph[job].key)});
-  std::string status = cell_directory(cell).write(cache_, records, problems);
+  write_cell(cell, records, problems, flush);
   const std::scoped_lock lock(mutex_);
-  status_[cell] = std::move(status);
   take_warnings(records);
   for (const auto& problem : problems)
     summary_.problems.push_back(fmt::format("{}: {}: {}", work_.cells.cells[cell].id,
@@ -224,11 +240,13 @@ void FarmSession::show_what_is_there() {
   const JobStateFilter what_is_there{.wanted = [](JobIndex) { return false; },
                                      .failures = JobStateFilter::Failures::kOfOthersCount,
                                      .look = ResultCache::Look::kName};
+  GroupFlush flush({directory_}, [](const std::exception_ptr&) {});
   for (const std::size_t cell : waiting_cells_)
     if (status_[cell] == "missing" &&
         std::ranges::any_of(cell_states(work_.graph, &cache_, what_is_there, cell).states,
                             [](JobState state) { return state != JobState::kAbsent; }))
-      finish_cell(cell);
+      finish_cell(cell, flush);
+  flush.finish();
   write_farm_record();
 }
 
@@ -253,14 +271,12 @@ void FarmSession::write_farm_record() const {
   for (std::size_t e = 0; e < work_.engines.size(); ++e)
     record.engines[e + grid.ours].refused_cells = work_.graph.refusals(e);
   const std::scoped_lock lock(mutex_);
-  for (std::size_t i = 0; i < status_.size(); ++i) {
+  records::write_farm(directory_ / "farm.json", record, status_.size(), [&](std::size_t i) {
     const Cell& cell = work_.cells.cells[i];
-    records::FarmCell& one = record.cells.emplace_back();
-    one.id = cell.id;
-    one.status = status_[i];
+    records::FarmCell one{cell.id, status_[i], {}};
     for (const auto& [name, value] : cell.axes) one.axes.emplace_back(name, value);
-  }
-  records::write_record(directory_ / "farm.json", record, AtLink::kReplace);
+    return one;
+  });
 }
 
 bool FarmSession::has_lost(const std::vector<JobState>& states) const {
@@ -303,8 +319,9 @@ FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOpti
     std::vector<JobState> states = session.states();
     JobRunWork work;
     try {
-      work = run_jobs(session.work().graph, session.cache(), now, states, session.waiting_cells(),
-                      [&](std::size_t cell) { session.finish_cell(cell); });
+      work = run_jobs(
+          session.work().graph, session.cache(), now, states, session.waiting_cells(), directory,
+          [&](std::size_t cell, GroupFlush& flush) { session.finish_cell(cell, flush); });
     } catch (...) {
       try {
         session.show_what_is_there();

@@ -40,7 +40,7 @@ class FarmSession {
   const std::vector<std::size_t>& waiting_cells() const { return waiting_cells_; }
 
   /// Writes a cell with its results and failures so far. From any thread.
-  void finish_cell(std::size_t cell);
+  void finish_cell(std::size_t cell, GroupFlush& flush);
   /// After an early end: writes every cell with results or failures, and farm.json.
   void show_what_is_there();
   void write_farm_record() const;
@@ -53,7 +53,9 @@ class FarmSession {
     return CellDirectory(directory_, work_.graph, cell);
   }
   void look_at_cells();
-  bool look_at(std::size_t cell, const CellStates& found);
+  bool look_at(std::size_t cell, const CellStates& found, GroupFlush& flush);
+  void write_cell(std::size_t cell, const CellRecords& records,
+                  const std::vector<CellProblem>& problems, GroupFlush& flush);
   void take_warnings(const CellRecords& records);
 
   FarmWork work_;

@@ -47,6 +47,12 @@ std::optional<JobIndex> JobBoard::next() {
     for (const auto now = Clock::now(); !put_back_.empty() && put_back_.front().first <= now;
          put_back_.pop_front())
       make_ready(put_back_.front().second);
+    if (!finished_cells_.empty()) {
+      lock.unlock();
+      finish_cells();
+      lock.lock();
+      continue;
+    }
     if (!ready_.empty()) {
       const JobIndex job = ready_.top().job;
       ready_.pop();
@@ -150,15 +156,19 @@ bool JobBoard::is_over() const {
 
 bool JobBoard::is_over_locked() const { return broken_ || stopped_ || interrupted(); }
 
-void JobBoard::end() {
-  if (broken_) std::rethrow_exception(broken_);
-  throw_if_interrupted();
+void JobBoard::finish_failed_cells() {
+  if (broken_ || interrupted()) return;
   for (const auto& [cell, waiting] : waiting_in_cell_)
     if (waiting > 0 && std::ranges::any_of(graph_.jobs(cell), [&](JobIndex job) {
           return states_[job] == JobState::kFailed;
         }))
       finished_cells_.push_back(cell);
   finish_cells();
+}
+
+void JobBoard::end() const {
+  if (broken_) std::rethrow_exception(broken_);
+  throw_if_interrupted();
 }
 
 void JobBoard::count(const std::function<void(JobRunWork&)>& change) {

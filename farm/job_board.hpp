@@ -6,6 +6,7 @@
 #include <exception>
 #include <queue>
 
+#include "core/group_flush.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/job_run.hpp"
 #include "farm/make_result.hpp"
@@ -32,7 +33,7 @@ class JobBoard {
   JobState state(JobIndex job) const;
   /// Whether a thread of this process makes the result.
   bool is_made_here(JobIndex job) const;
-  /// Waits for a job that is made here and can begin; empty once there will be no more.
+  /// Waits for a job that is made here and can begin, and finishes cells meanwhile; empty once there will be no more.
   std::optional<JobIndex> next();
   /// Another process is making it: next() gives it again later.
   void put_back(JobIndex job);
@@ -44,8 +45,10 @@ class JobBoard {
   void stop();                               ///< ends the run early
   void break_off(std::exception_ptr error);  ///< likewise; end() throws the first such error
   bool is_over() const;
-  /// After the last thread: throws the error that broke the run, or finishes the cells with the failure that ended it.
-  void end();
+  /// After the last job: finishes the cells with the failure that ended the run.
+  void finish_failed_cells();
+  /// Throws the error that broke the run.
+  void end() const;
 
   void count(const std::function<void(JobRunWork&)>& change);
   const JobRunWork& work() const { return work_; }
@@ -97,11 +100,13 @@ struct JobFailure {
 
 class JobMaker {
  public:
-  JobMaker(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options, JobBoard& board)
+  JobMaker(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options, JobBoard& board,
+           GroupFlush& flush)
       : graph_(graph),
         cache_(cache),
         options_(options),
         board_(board),
+        flush_(flush),
         failed_(options.failed_directory) {}
 
   /// The right to make a result, among all processes and the threads of this one: two cells may have the same scene.
@@ -123,11 +128,12 @@ class JobMaker {
   /// Settles the job if its result has been made since the farm looked.
   bool is_there(JobIndex job);
 
-  /// Makes the result in this process and settles the job; false while another process or thread makes it.
+  /// Makes the result in this process; false while another process or thread makes it. The job is settled once its
+  /// files are on the disk.
   bool make_here(JobIndex job);
-  /// Publishes an engine's picture. Throws ResultFailure if it is not a valid one.
+  /// Likewise for an engine's picture, whose claim it takes. Throws ResultFailure if it is not a valid one.
   void keep_reference(JobIndex job, const Scene& scene, ReferenceResult result, int attempt,
-                      double wall_seconds);
+                      double wall_seconds, std::unique_ptr<Claim>& claim);
   void fail(JobIndex job, JobFailure failure, const std::string& log = {});
 
  private:
@@ -142,12 +148,20 @@ class JobMaker {
   MadePicture input_picture(JobIndex job, Hashes& from) const;
   bool discard_unreadable_inputs(JobIndex job) const;
   void make(JobIndex job, ResultDraft& draft, records::Result& record) const;
-  void publish(JobIndex job, ResultDraft& draft, records::Result record);
+  struct Made {
+    std::unique_ptr<Claim> claim;
+    ResultDraft draft;
+    records::Result record;
+  };
+  void publish(JobIndex job, std::unique_ptr<Claim>& claim, ResultDraft& draft,
+               records::Result record);
+  void place(JobIndex job, Made& made);
 
   JobGraph& graph_;
   const ResultCache& cache_;
   const JobRunOptions& options_;
   JobBoard& board_;
+  GroupFlush& flush_;
   FailedJobs failed_;
   std::mutex mutex_;
   std::set<ResultKey> claimed_;  ///< by threads of this process

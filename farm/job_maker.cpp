@@ -203,7 +203,7 @@ bool JobMaker::make_here(JobIndex job) {
     graph_.narrow_profile(graph_.cell_of(job), [&](JobIndex picture) {
       return board_.state(picture) == JobState::kDone;
     });
-  const auto claimed = claim(job);
+  auto claimed = claim(job);
   if (!claimed) return false;
   const double cpu_before = thread_cpu_seconds();
   const auto wall_before = std::chrono::steady_clock::now();
@@ -212,12 +212,15 @@ bool JobMaker::make_here(JobIndex job) {
     if (is_there(job)) return true;
     draft.emplace(cache_.draft());
     records::Result record = result_record(job, 1);
-    make(job, *draft, record);
+    {
+      const auto later = flush_.later();
+      make(job, *draft, record);
+    }
     const double cpu = thread_cpu_seconds() - cpu_before;
     record.seconds = {seconds_since(wall_before), cpu};
     record.peak_memory_bytes = peak_memory_of(::getpid());
     board_.count([&](JobRunWork& work) { work.kernel_cpu_seconds += cpu; });
-    publish(job, *draft, std::move(record));
+    publish(job, claimed, *draft, std::move(record));
   } catch (const Error& error) {
     if ((draft && !draft->is_there()) || dynamic_cast<const LostInput*>(&error) ||
         discard_unreadable_inputs(job)) {
@@ -233,7 +236,7 @@ bool JobMaker::make_here(JobIndex job) {
 }
 
 void JobMaker::keep_reference(JobIndex job, const Scene& scene, ReferenceResult result, int attempt,
-                              double wall_seconds) {
+                              double wall_seconds, std::unique_ptr<Claim>& claim) {
   const FarmEngine& engine = graph_.engines()[graph_[job].engine];
   const std::string program = program_for(options_.programs, engine.name).string();
   records::Result record = result_record(job, attempt);
@@ -244,18 +247,34 @@ void JobMaker::keep_reference(JobIndex job, const Scene& scene, ReferenceResult 
   ResultDraft draft = cache_.draft();
   try {
     const double cpu_before = thread_cpu_seconds();
-    make_reference(scene, engine, program, std::move(result), draft, record);
+    {
+      const auto later = flush_.later();
+      make_reference(scene, engine, program, std::move(result), draft, record);
+    }
     const double cpu = thread_cpu_seconds() - cpu_before;
     board_.count([&](JobRunWork& work) { work.kernel_cpu_seconds += cpu; });
-    publish(job, draft, std::move(record));
+    publish(job, claim, draft, std::move(record));
   } catch (const Error&) {
     if (draft.is_there()) throw;
     settle_lost(job);
   }
 }
 
-void JobMaker::publish(JobIndex job, ResultDraft& draft, records::Result record) {
-  const Publication publication = cache_.publish(draft, graph_[job].key, std::move(record));
+/// Takes the claim and the draft, unless sealing fails.
+void JobMaker::publish(JobIndex job, std::unique_ptr<Claim>& claim, ResultDraft& draft,
+                       records::Result record) {
+  {
+    const auto later = flush_.later();
+    cache_.seal(draft, graph_[job].key, record);
+  }
+  auto files = draft.files();
+  const auto made =
+      std::make_shared<Made>(Made{std::move(claim), std::move(draft), std::move(record)});
+  flush_.add(std::move(files), [this, job, made] { place(job, *made); });
+}
+
+void JobMaker::place(JobIndex job, Made& made) try {
+  const Publication publication = cache_.place(made.draft, graph_[job].key, made.record);
   board_.count([&](JobRunWork& work) {
     if (publication == Publication::kNew) {
       ++work.made;
@@ -266,6 +285,9 @@ void JobMaker::publish(JobIndex job, ResultDraft& draft, records::Result record)
     }
   });
   settle_done(job);
+} catch (const Error&) {
+  if (made.draft.is_there()) throw;
+  settle_lost(job);
 }
 
 }  // namespace lobelia

@@ -117,7 +117,7 @@ class EngineRun {
            0});
     std::unique_lock average(averages_, std::defer_lock);
     if (is_average) average.lock();
-    const auto claimed = claim(job);
+    auto claimed = claim(job);
     if (!claimed) return;
     ReferenceResult result = session.render(scene, graph_.axes(graph_.cell_of(job)));
     const double wall = seconds_since(result.begun);
@@ -128,7 +128,7 @@ class EngineRun {
       failure.attempts = ++attempts_[job];
     }
     if (failure.message.empty()) try {
-        maker_.keep_reference(job, scene, std::move(result), failure.attempts, wall);
+        maker_.keep_reference(job, scene, std::move(result), failure.attempts, wall, claimed);
       } catch (const ResultFailure& error) {
         failure.kind = error.kind();
         failure.message = error.what();
@@ -214,12 +214,17 @@ class EngineRun {
 
 JobRunWork run_jobs(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
                     std::vector<JobState>& states, const std::vector<std::size_t>& order,
-                    std::function<void(std::size_t)> on_cell) {
+                    const std::filesystem::path& directory,
+                    const std::function<void(std::size_t cell, GroupFlush&)>& on_cell) {
   const auto wall_before = std::chrono::steady_clock::now();
   const double own_before = cpu_seconds_of(RUSAGE_SELF),
                engines_before = cpu_seconds_of(RUSAGE_CHILDREN);
-  JobBoard board(graph, options, states, std::move(on_cell));
-  JobMaker maker(graph, cache, options, board);
+  GroupFlush* flush_of_cells = nullptr;
+  JobBoard board(graph, options, states, [&](std::size_t cell) { on_cell(cell, *flush_of_cells); });
+  GroupFlush flush({cache.directory(), directory},
+                   [&](std::exception_ptr error) { board.break_off(std::move(error)); });
+  flush_of_cells = &flush;
+  JobMaker maker(graph, cache, options, board, flush);
   std::vector<std::vector<JobIndex>> of_engine = board.plan(order);
   // Threads are counted first: one that cannot be started would keep the others waiting for ever.
   const int engines =
@@ -252,10 +257,12 @@ JobRunWork run_jobs(JobGraph& graph, const ResultCache& cache, const JobRunOptio
           bool settled = false;
           alone.execute([&] { settled = maker.make_here(*job); });
           if (!settled) board.put_back(*job);
-          board.finish_cells();
         }
+        board.finish_cells();
       });
   }
+  board.finish_failed_cells();
+  flush.finish();
   board.count([&](JobRunWork& work) {
     work.processors = processors;
     work.wall_seconds = seconds_since(wall_before);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "core/group_flush.hpp"
 #include "farm/job_states.hpp"
 #include "records/cluster.hpp"
 
@@ -54,10 +55,12 @@ struct JobRunWork {
 };
 
 /// Does all waiting jobs of `states` (see job_states()), cells in this order. Results that others make in the same cache are
-/// waited for. Calls `on_cell`, from any thread, once a cell has nothing left to wait for, or a failure in it ended the run.
-/// The cache keeps failures of jobs. Throws Error(kInterrupted) on Ctrl-C, Error(kOutput) if results cannot be kept.
+/// waited for. Calls `on_cell`, from any thread, once a cell has nothing left to wait for, or a failure in it ended the run;
+/// it may write into `directory`. The cache keeps failures of jobs. Throws Error(kInterrupted) on Ctrl-C, Error(kOutput) if
+/// results cannot be kept.
 JobRunWork run_jobs(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
                     std::vector<JobState>& states, const std::vector<std::size_t>& order,
-                    std::function<void(std::size_t)> on_cell);
+                    const std::filesystem::path& directory,
+                    const std::function<void(std::size_t cell, GroupFlush&)>& on_cell);
 
 }  // namespace lobelia

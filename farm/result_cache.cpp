@@ -91,6 +91,12 @@ ResultDraft::~ResultDraft() {
   }
 }
 
+std::vector<fs::path> ResultDraft::files() const {
+  std::vector<fs::path> paths;
+  for (const std::string& name : files_) paths.push_back(directory_ / name);
+  return paths;
+}
+
 bool ResultDraft::is_there() const {
   struct stat status {};
   return directory_.empty() ||  // it is published
@@ -195,8 +201,7 @@ ResultDraft ResultCache::draft() const {
   return made;
 }
 
-Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
-                                 records::Result record) const {
+void ResultCache::seal(ResultDraft& draft, const ResultKey& key, records::Result& record) const {
   record.key = key.text();
   record.files.clear();
   for (const std::string& name : draft.files_) {
@@ -208,8 +213,17 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
     record.files.push_back(
         {name, std::uint64_t(status.st_size), hash_of_output(path), modified(status)});
   }
-  records::write_record(draft.directory() / kManifestFile, record);
+  records::write_record(draft.file(kManifestFile), record);
+}
 
+Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
+                                 records::Result record) const {
+  seal(draft, key, record);
+  return place(draft, key, record);
+}
+
+Publication ResultCache::place(ResultDraft& draft, const ResultKey& key,
+                               const records::Result& record) const {
   const fs::path target = result_directory(key);
   const HeldDirectory to = shelf("results", key);
   for (int attempt = 0;; ++attempt) {

@@ -37,6 +37,8 @@ class ResultDraft {
     files_.insert(name);
     return directory_ / name;
   }
+  /// All of these, and after ResultCache::seal() its record too.
+  std::vector<std::filesystem::path> files() const;
   /// False if it was removed.
   bool is_there() const;
 
@@ -88,7 +90,11 @@ class ResultCache {
 
   /// Throws Error(kOutput).
   ResultDraft draft() const;
-  /// Writes `record` with the list of files, and renames all into place. Throws Error(kOutput), also for a lost file.
+  /// Writes `record` with the list of files. Throws Error(kOutput), also for a lost file.
+  void seal(ResultDraft& draft, const ResultKey& key, records::Result& record) const;
+  /// Renames a sealed draft into place; its files must be on the disk. Throws Error(kOutput).
+  Publication place(ResultDraft& draft, const ResultKey& key, const records::Result& record) const;
+  /// Both.
   Publication publish(ResultDraft& draft, const ResultKey& key, records::Result record) const;
 
   /// Removes drafts, results and failures; nothing while the marker is missing.

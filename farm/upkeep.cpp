@@ -14,6 +14,7 @@
 #include "core/text.hpp"
 #include "farm/cell_directory.hpp"
 #include "farm/failed_jobs.hpp"
+#include "records/farm_file.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -45,7 +46,7 @@ std::string title_of(const ResultKey& key, const std::optional<records::Result>&
 }
 
 records::Farm read_farm_record(const fs::path& directory) {
-  return records::read_record<records::Farm>(directory / "farm.json");
+  return records::read_farm(directory / "farm.json");
 }
 
 template <class F>

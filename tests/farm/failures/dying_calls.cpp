@@ -53,11 +53,15 @@ struct TellAtEnd {
 
 extern "C" {
 DYING(rename, (const char* from, const char* to), (from, to))
+DYING(renameat, (int there, const char* from, int here, const char* to), (there, from, here, to))
+DYING(linkat, (int there, const char* from, int here, const char* to, int flags),
+      (there, from, here, to, flags))
 DYING(link, (const char* from, const char* to), (from, to))
 DYING(mkdir, (const char* path, mode_t mode), (path, mode))
 DYING(unlink, (const char* path), (path))
 DYING(chmod, (const char* path, mode_t mode), (path, mode))
 DYING(fsync, (int fd), (fd))
+DYING(syncfs, (int fd), (fd))
 
 ssize_t pwrite64(int fd, const void* bytes, size_t size, off64_t at) {
   static const auto call = real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
