@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/more_samples.hpp"
 #include "tests/reference_scenes/ourselves.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
@@ -22,7 +23,7 @@ ReferenceResult average(const Scene& scene, int points) {
 /// The same from samples of lights and directions, as a user would have it; so many that their noise counts
 /// for nothing.
 Image converged(Scene scene) {
-  scene.sampler.sample_count = 32768;
+  scene.sampler.sample_count = 32768 * more_samples();
   return render(scene, {}).image;
 }
 
@@ -33,7 +34,8 @@ TEST(Replicates, AverageToThePictureWithinTheirOwnNoiseAndComeNearerWithMorePoin
     if (named.scene.sampler.sample_count == 1) named.scene.sampler.sample_count = 4;
     const Image truth = converged(named.scene);
     double before = 1e9;
-    for (const int points : {256, 4096}) {
+    for (const int base : {256, 4096}) {
+      const int points = base * more_samples();
       const ReferenceResult result = average(named.scene, points);
       const ReplicateStatistics s = replicate_statistics(result, truth, points, 1e-4);
       // Neighbours share their points, so a few may fall out together.

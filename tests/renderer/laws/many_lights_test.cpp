@@ -6,6 +6,7 @@
 
 #include "renderer/light_tree.hpp"
 #include "renderer/scene/contact.hpp"
+#include "tests/more_samples.hpp"
 #include "tests/renderer/blocks.hpp"
 #include "tests/renderer/random_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
@@ -172,7 +173,7 @@ TEST(LightTree, HasFarLessVarianceThanAnEvenChoice) {
 Scene under_many_lights(Random& random, bool area) {
   Scene scene = on_the_ground();
   scene.film = {16, 12};
-  scene.sampler.sample_count = 16;
+  scene.sampler.sample_count = 16 * more_samples();
   scene.materials[0] = shiny(random.between(2, 64));
   if (random.between(0, 1) < 0.3) scene.materials[0].mirror_reflectance = grey(0.5);
   scene.depth = {2, int(random.between(area ? 0 : 1, 3))};

@@ -1,6 +1,7 @@
 // Skies at random: what the sky draws and what surfaces draw is together its light.
 #include <gtest/gtest.h>
 
+#include "tests/more_samples.hpp"
 #include "tests/renderer/blocks.hpp"
 #include "tests/renderer/random_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
@@ -41,7 +42,7 @@ std::shared_ptr<const Image> random_sky(Random& random) {
 Scene below_random_sky(Random& random) {
   Scene scene = on_the_ground();
   scene.film = {16, 12};
-  scene.sampler.sample_count = 64;
+  scene.sampler.sample_count = 64 * more_samples();
   if (random.chance(0.5)) scene.materials[0] = shiny(random.log_between(1, 200));
   if (random.chance(0.3)) scene.materials[1].mirror_reflectance = {0.5, 0.5, 0.5};
   scene.depth = {1, random.below(3)};
