@@ -58,7 +58,8 @@ Bytes zipped(const float* rgb, int width, int rows) {
   steps[0] = apart[0];
   for (std::size_t i = 1; i < count; ++i) steps[i] = std::uint8_t(apart[i] - apart[i - 1] + 128);
 
-  isal_zstream stream;
+  // All zero: a few bytes of a packed block depend on what isal_deflate_stateless_init() leaves as it was.
+  isal_zstream stream{};
   isal_deflate_stateless_init(&stream);
   stream.level = 1;
   stream.level_buf = space.deflate.get();
