@@ -37,7 +37,12 @@ std::string lacking(const std::exception& error) {
   for (const int one : {EAGAIN, ENOMEM, EMFILE})
     if (words.find(std::strerror(one)) != words.npos) return lacking(one);
   for (const char* memory_word :
-       {"std::bad_alloc", "failed to map segment", "cannot allocate memory", "cannot create cache"})
+       {"std::bad_alloc", "out of memory", "cannot allocate",
+        // of glibc's dynamic loader
+        "failed to map segment", "cannot map zero-fill pages", "cannot change memory protections",
+        "cannot extend global scope", "cannot create cache", "cannot create scope list",
+        "cannot create search path", "cannot create shared object", "cannot create RUNPATH",
+        "cannot create TLS"})
     if (words.find(memory_word) != words.npos) return lacking(ENOMEM);
   return "";
 }
