@@ -228,8 +228,12 @@ void FarmSession::finish_cell(std::size_t cell, GroupFlush& flush) {
     if (const auto failure = is_there(job) ? std::nullopt : cache_.failure(graph[job].key))
       problems.push_back({{graph.whose(job), failure->message, failure->failure, failure->attempts},
                           cache_.failure_log(graph[job].key)});
-  write_cell(cell, records, problems, flush);
+  // Another farm of this directory may have written it meanwhile, as a run on Slurm and its client do. It is left: its
+  // record would be away until this one is flushed.
+  std::string status = problems.empty() ? cell_directory(cell).current_status(cache_, records) : "";
+  if (status.empty()) write_cell(cell, records, problems, flush);
   const std::scoped_lock lock(mutex_);
+  if (!status.empty()) status_[cell] = std::move(status);
   take_warnings(records);
   for (const auto& problem : problems)
     summary_.problems.push_back(fmt::format("{}: {}: {}", work_.cells.cells[cell].id,
