@@ -85,7 +85,16 @@ void add_catalogued(LobeId id, double exponent, Variants& all) {
   add_scalar<double>(all, id, stable, operations(id), of_peak64,
                      [lobe](double s) { return lobe.value(s); });
   add<double>(all, id, stable, true, operations(id), of_peak64, lanes);
-  add<float>(all, id, stable, true, operations(id), of_peak32, lanes);
+  std::string stable32 = stable;
+  OperationCount count32 = operations(id);
+  if constexpr (kCosine)
+    if (lobe.whole_n > 0) {
+      stable32 = "squaring in float64";
+      count32 = {};
+      count32.add = count32.compare = 1;
+      binary_power(0, unsigned(lobe.whole_n), [&](int, int) { return ++count32.multiply; });
+    }
+  add<float>(all, id, stable32, true, count32, of_peak32, lanes);
   // A textbook's power, arc cosine or difference makes the rounding of 1 - s n times as large.
   const double textbook =
       kCosine ? power_allowed<float>(exponent) : 2 * (exponent + id.order + 8) * kRounding32;

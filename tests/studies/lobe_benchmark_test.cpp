@@ -89,7 +89,11 @@ TEST(LobeErrors, AreTheRoundingsOfOurCosine) {
     EXPECT_LT(wide.all.energy, 1e-15) << exponent;
     EXPECT_GT(wide.all.max, 0) << exponent;
     EXPECT_EQ(wide.shape.max, 0) << exponent;
-    EXPECT_LT(errors_of(exponent, "cosine, exp(n log1p(-s)), float32 SIMD").all.max, 2e-7)
+    const bool squares = exponent == std::floor(exponent) && exponent <= 1024;
+    EXPECT_LT(errors_of(exponent, squares ? "cosine, squaring in float64, float32 SIMD"
+                                          : "cosine, exp(n log1p(-s)), float32 SIMD")
+                  .all.max,
+              2e-7)
         << exponent;
   }
 }
