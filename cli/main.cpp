@@ -145,7 +145,7 @@ std::string unknown_option(CLI::App& app, std::span<char*> words) {
   return "";
 }
 
-/// What the parser finds wrong, and what to type.
+/// The message for a command line that does not parse: what is wrong, and what to type instead.
 std::string parse_failure(CLI::App& app, std::span<char*> words, const CLI::ParseError& error) {
   if (std::string message = unknown_option(app, words); !message.empty()) return message;
   const CLI::App* const command = named_command(app, words).first;

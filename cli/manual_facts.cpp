@@ -1,4 +1,4 @@
-// What man pages and the documentation list besides commands.
+// Exit codes, environment variables and files, for man pages and the documentation.
 #include "cli/manual_tables.hpp"
 #include "core/error.hpp"
 

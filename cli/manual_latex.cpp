@@ -19,7 +19,7 @@ class LatexWriter {
   }
 
  private:
-  /// What a fraction or a power can take without the parentheses around it.
+  /// A piece of LaTeX. Fractions and powers take `inside`, which is the text without the parentheses around it.
   struct Part {
     std::string text, inside;
     Part(std::string all) : text(all), inside(std::move(all)) {}

@@ -214,7 +214,7 @@ std::string section(std::span<const LobeId> members, Files& files) {
   text += display(fmt::format("\\ell(s) = {}", latex(lobe.formula)));
   text += "\n" + moments(lobe);
   text += fmt::format("\n*Source*: {}\n\n", lobe.source);
-  // Of a family whose members have coefficients that its own formula only names.
+  // The members' own formulas, where the family's formula only names their coefficients.
   std::string written;
   for (const LobeId& member : members)
     if (info(member).formula.size() > 2 * lobe.formula.size())

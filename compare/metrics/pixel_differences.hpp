@@ -13,7 +13,7 @@ namespace lobelia {
 using DifferenceKernel = void (*)(const float* rgb_a, const float* rgb_b, float* differences,
                                   std::size_t count);
 
-/// Of all pixels, or of the rows that have one where `needed` is not 0; in other rows 0.
+/// The differences of all pixels. With `needed`, only those in rows where it is not all zero are computed; the others are 0.
 PixelValues pixel_differences(const DisplayLight& a, const DisplayLight& b, DifferenceKernel kernel,
                               std::span<const std::uint8_t> needed = {});
 

@@ -1,4 +1,4 @@
-// What several metrics make of the same two pictures is made once.
+// Lets metrics of one comparison share intermediate results, so that each is computed once.
 #pragma once
 
 #include <any>
@@ -17,8 +17,8 @@ class SharedWork {
   std::map<Key, std::any> made;
 };
 
-/// What `make` returns, or returned to the metric of the same work that was first to ask for `name`. With `by_region` each
-/// region has its own.
+/// The result called `name`: made by `make` for the first metric that asks for it, and kept for the others of the same work.
+/// With `by_region` each region has its own.
 template <class Make>
 auto shared(const MetricInput& input, std::string_view name, const Make& make,
             bool by_region = false) {
