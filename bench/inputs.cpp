@@ -71,6 +71,13 @@ ProcessResult render_file(const std::string& program, std::string_view scene, in
   return run(render_command(program, scene, width, height, to));
 }
 
+void render_both_files(const std::string& program, std::string_view scene, int width, int height,
+                       std::filesystem::path to) {
+  auto command = render_command(program, scene, width, height, to.replace_extension("exr"));
+  command.insert(command.end(), {"--png", to.replace_extension("png")});
+  run(command);
+}
+
 std::vector<std::string> comparison(const std::string& program, const std::filesystem::path& a,
                                     const std::filesystem::path& b,
                                     const std::vector<std::string>& more) {

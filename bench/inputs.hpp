@@ -29,6 +29,9 @@ std::vector<std::string> render_command(const std::string& program, std::string_
                                         int width, int height, const std::filesystem::path& to);
 ProcessResult render_file(const std::string& program, std::string_view scene, int width, int height,
                           const std::filesystem::path& to);
+/// Renders to an EXR and a PNG of that name.
+void render_both_files(const std::string& program, std::string_view scene, int width, int height,
+                       std::filesystem::path to);
 /// lobelia compare with a limit that always holds, so that the exit code is 0: its command, and running it.
 std::vector<std::string> comparison(const std::string& program, const std::filesystem::path& a,
                                     const std::filesystem::path& b,

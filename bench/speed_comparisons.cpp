@@ -52,11 +52,8 @@ void ask_both(const std::string& program, const Question& question, const fs::pa
 void others(const std::string& program) {
   const TemporaryDirectory directory;
   const auto file = [&](const char* name) { return directory.path() / name; };
-  render_file(program, "head_on", 1920, 1080, file("a.exr"));
-  render_file(program, "two_lights", 1920, 1080, file("b.exr"));
-  for (const char* side : {"a", "b"})
-    run({find_program("oiiotool"), file(side).replace_extension("exr"), "-d", "uint8", "-o",
-         file(side).replace_extension("png")});
+  render_both_files(program, "head_on", 1920, 1080, file("a"));
+  render_both_files(program, "two_lights", 1920, 1080, file("b"));
   fmt::print(
       "\nWhole commands: lobelia compare --metrics beside other programs, 1920 x 1080, medians of 7 pairs "
       "in turn\n");
