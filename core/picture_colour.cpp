@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
@@ -124,6 +126,24 @@ void decode_hlg(std::span<float> values, const std::array<double, 3>& luminance)
   }
 }
 
+/// Puts each value through the curve. A picture of 8 or 16 bits has few values, and a power takes longer than a look at
+/// what the same bits gave before.
+template <class Curve>
+void decode_each(Image& image, const Curve& curve) {
+  struct Known {
+    std::uint32_t bits;
+    float light;
+  };
+  constexpr int kIndexBits = 13;
+  std::vector<Known> known(std::size_t{1} << kIndexBits, Known{0, curve(0)});
+  for (float& value : image.values()) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    Known& one = known[bits * 2654435761u >> (32 - kIndexBits)];
+    if (one.bits != bits) one = {bits, curve(value)};
+    value = one.light;
+  }
+}
+
 }  // namespace
 
 RgbMatrix inverse(const RgbMatrix& m) {
@@ -196,19 +216,21 @@ void decode(const TransferCurve& curve, Image& image, const std::array<double, 3
     case Kind::kLinear:
       return;
     case Kind::kSrgb:
-      decode_srgb(image);
+      decode_each(image, srgb_decoded);
       return;
     case Kind::kRec709:
       // ITU-R BT.709-6, item 1.2, inverted.
-      for (float& value : image.values())
-        value = value < 0.081f ? value / 4.5f : std::pow((value + 0.099f) / 1.099f, 1 / 0.45f);
+      decode_each(image, [](float value) {
+        return value < 0.081f ? value / 4.5f : std::pow((value + 0.099f) / 1.099f, 1 / 0.45f);
+      });
       return;
     case Kind::kPower:
-      for (float& value : image.values())
-        if (!(value <= 0)) value = std::pow(value, float(curve.gamma));
+      decode_each(image, [gamma = float(curve.gamma)](float value) {
+        return value <= 0 ? value : std::pow(value, gamma);
+      });
       return;
     case Kind::kPq:
-      for (float& value : image.values()) value = pq_decoded(value);
+      decode_each(image, pq_decoded);
       return;
     case Kind::kHlg:
       decode_hlg(image.values(), luminance);

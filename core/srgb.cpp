@@ -11,8 +11,4 @@ float srgb_decoded(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-void decode_srgb(Image& image) {
-  for (float& value : image.values()) value = srgb_decoded(value);
-}
-
 }  // namespace lobelia
