@@ -3,7 +3,9 @@
 
 #include <sys/mman.h>
 
+#include <atomic>
 #include <cerrno>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,6 +14,8 @@
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
+#include "core/plain_picture.hpp"
+#include "core/png_module.hpp"
 #include "core/png_writer.hpp"
 #include "core/threads.hpp"
 
@@ -31,6 +35,8 @@ bool is_free(std::size_t size, int access) {
   return place != MAP_FAILED && ::munmap(place, size) == 0;
 }
 
+std::atomic<bool> g_on_calling_threads{false};
+
 /// Checked beforehand, because one of those libraries (log4cplus) hangs if it gets two of its four threads.
 void require_room_for_module() {
   const int error = startable_threads(kModuleThreads) < kModuleThreads ? EAGAIN
@@ -39,6 +45,13 @@ void require_room_for_module() {
                         ? ENOMEM
                         : 0;
   if (error != 0) throw failure_of("image module", error, ExitCode::kInternal);
+}
+
+/// OpenImageIO, with as many threads as was asked.
+const ImageIoTable& other_formats() {
+  const ImageIoTable& table = image_io_table();
+  if (g_on_calling_threads) table.decode_on_calling_threads();
+  return table;
 }
 
 }  // namespace
@@ -53,10 +66,18 @@ const ImageIoTable& image_io_table() {
 
 Image read_image(const fs::path& path) { return read_picture(path, "").image; }
 
+const PngTable& png_table() {
+  static const auto* const table = static_cast<const PngTable*>(png_module.find(kPngTableSymbol));
+  return *table;
+}
+
 Image read_trusted_image(const fs::path& path) {
   const PictureFile file(path);
   const std::string bytes = file.read_all();
-  return image_io_table().read_picture({path, bytes, file.known_format()}, "").image;
+  PictureBytes picture{path, bytes, file.known_format()};
+  picture.on_one_thread = g_on_calling_threads;
+  if (auto plain = read_plain_picture(picture, "")) return std::move(plain->image);
+  return other_formats().read_picture(picture, "").image;
 }
 
 void write_exr(const fs::path& path, const Image& image, const ImageMetadata& metadata) {
@@ -72,7 +93,7 @@ void write_png(const fs::path& path, const DisplayImage& image, const ImageMetad
 }
 
 std::string png_bytes(const DisplayImage& image, const ImageMetadata& metadata) {
-  const auto encoder = image_io_table().start_png(image.width, image.height, metadata);
+  const auto encoder = png_table().start(image.width, image.height, metadata);
   std::string file;
   for (const auto& bytes : {encoder->encode(image), encoder->finish()})
     file.append(bytes.begin(), bytes.end());
@@ -82,7 +103,7 @@ std::string png_bytes(const DisplayImage& image, const ImageMetadata& metadata) 
 void code_pictures_on_calling_threads() {
   ExrWriter::pack_on_calling_threads();
   decode_contained_on_one_thread();
-  image_io_table().decode_on_calling_threads();
+  g_on_calling_threads = true;
 }
 
 ColourTable colour_table(std::string_view name) { return image_io_table().colour_table(name); }

@@ -1,7 +1,7 @@
-// Reads and writes pictures, by OpenImageIO except for writing EXR.
+// Reads and writes pictures.
 //
-// OpenImageIO brings some 260 shared libraries and 0.2 s to every process that links it. So it is in a module of its own
-// (image_io_module.cpp), which is loaded at the first picture.
+// OpenImageIO brings some 260 shared libraries and 0.3 s to every process that links it. So it is in a module of its own
+// (image_io_module.cpp), which is loaded for the first picture that is not plain (core/plain_picture.hpp).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// With image_io_module_png.cpp the only file that knows OpenImageIO; built as a module of its own, see image_io.hpp.
+// The only file that knows OpenImageIO; built as a module of its own, see image_io.hpp.
 #include "core/image_io_module.hpp"
 
 #include <OpenImageIO/filesystem.h>
@@ -15,10 +15,9 @@
 #include "core/error.hpp"
 #include "core/gain_map.hpp"
 #include "core/icc_profile.hpp"
-#include "core/image_io_module_png.hpp"
 #include "core/picture.hpp"
-#include "core/picture_colour.hpp"
 #include "core/picture_layers.hpp"
+#include "core/picture_light.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -219,29 +218,10 @@ bool is_unassociated(const OIIO::ImageSpec& spec, std::string_view format) {
   return format == "png" || spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
 }
 
-/// How the file's colours become light with Rec. 709 primaries.
-struct ColourMeaning {
-  TransferCurve curve{TransferCurve::Kind::kLinear, 1, "linear"};
-  std::optional<Chromaticities> primaries = {};  ///< nothing for Rec. 709
-  std::optional<IccProfile> profile = {};        ///< in place of the two
+/// What a profile says precedes the rest.
+struct ProfiledMeaning : ColourMeaning {
+  std::optional<IccProfile> profile = {};
 };
-
-ColourMeaning png_meaning(const PictureBytes& file) {
-  const std::filesystem::path& path = file.path;
-  const PngColour colour = png_colour(file.bytes);
-  ColourMeaning meaning{transfer_curve(path.string(), colour)};
-  if (colour.cicp) {
-    if (colour.cicp->matrix != 0 || !colour.cicp->full_range)
-      unreadable(path, "its cICP chunk says no RGB of the full range");
-    meaning.primaries = chromaticities_of_code_point(colour.cicp->primaries);
-    if (!meaning.primaries)
-      unreadable(path, fmt::format("its cICP chunk says colour primaries {}, which are not known",
-                                   colour.cicp->primaries));
-  } else if (!colour.has_icc_profile && !colour.is_srgb) {
-    meaning.primaries = colour.chromaticities;
-  }
-  return meaning;
-}
 
 /// The bytes of the ICC profile, where the format has a field for it; else empty.
 std::string_view icc_bytes(const PictureBytes& file, const OIIO::ImageSpec& spec,
@@ -259,7 +239,7 @@ std::string_view icc_bytes(const PictureBytes& file, const OIIO::ImageSpec& spec
 /// A profile counts for integers, and for floats that it calls linear: other floats are light already. The chunk cICP of a
 /// PNG precedes it.
 void add_profile(const PictureBytes& file, const OIIO::ImageSpec& spec, std::string_view format,
-                 const PictureLayer& layer, PictureSource& source, ColourMeaning& meaning) {
+                 const PictureLayer& layer, PictureSource& source, ProfiledMeaning& meaning) {
   if (!layer.is_colour || (format == "png" && png_colour(file.bytes).cicp)) return;
   const std::string_view bytes = icc_bytes(file, spec, format);
   if (bytes.empty()) return;
@@ -274,7 +254,7 @@ void add_profile(const PictureBytes& file, const OIIO::ImageSpec& spec, std::str
 
 ColourMeaning colour_meaning(const PictureBytes& file, const OIIO::ImageSpec& spec,
                              std::string_view format, OIIO::TypeDesc type) {
-  if (format == "png") return png_meaning(file);
+  if (format == "png") return png_meaning(file.path, png_colour(file.bytes));
   ColourMeaning meaning;
   if (format == "openexr") {
     if (type == OIIO::TypeDesc::UINT32) return meaning;
@@ -291,51 +271,19 @@ ColourMeaning colour_meaning(const PictureBytes& file, const OIIO::ImageSpec& sp
   return meaning;
 }
 
-/// To Rec. 709, for three channels.
-void convert_primaries(const std::filesystem::path& path, const Chromaticities& from,
-                       Picture& picture) {
-  if (are_rec709(from)) return;
-  const auto matrix = to_rec709(from);
-  if (!matrix)
-    unreadable(path, fmt::format("its chromaticities {:g} are no red, green, blue and white",
-                                 fmt::join(from, " ")));
-  apply(*matrix, picture.image);
-  picture.source.chromaticities.assign(from.begin(), from.end());
-}
-
 /// Makes the picture's colours light.
-void decode_colours(const std::filesystem::path& path, const ColourMeaning& meaning,
-                    Picture& picture) {
-  if (meaning.profile) {
-    meaning.profile->to_light(picture.image);
-    picture.source.transfer = kByProfile;
-    return;
-  }
-  const bool is_grey = picture.source.channels.size() == 1;
-  decode(meaning.curve, picture.image,
-         luminance_weights(meaning.primaries.value_or(kRec709Chromaticities)));
-  picture.source.transfer = meaning.curve.name;
-  if (meaning.primaries && !is_grey) convert_primaries(path, *meaning.primaries, picture);
+void to_light(const std::filesystem::path& path, const ProfiledMeaning& meaning, Picture& picture) {
+  if (!meaning.profile) return decode_colours(path, meaning, picture);
+  meaning.profile->to_light(picture.image);
+  picture.source.transfer = kByProfile;
 }
 
-/// A pixel's samples, as pbrt and Cycles write them into their files; 0 if there is no such number.
-double samples_of(const OIIO::ImageSpec& spec, const std::string& layer) {
-  double samples = spec.get_int_attribute("samplesPerPixel", 0);
-  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
-    // "cycles.ViewLayer.samples", of the layer's first part.
-    const std::string_view name = attribute.name().string();
-    constexpr std::string_view kBegin = "cycles.", kEnd = ".samples";
-    if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
-        name.size() <= kBegin.size() + kEnd.size())
-      continue;
-    const std::string view_layer(
-        name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size()));
-    double number = 0;
-    if ((layer + ".").starts_with(view_layer + ".") && parse_number(attribute.get_string(), number))
-      samples = number;
-  }
-  constexpr double kMostSamples = 1e12;
-  return samples >= 1 && samples <= kMostSamples ? samples : 0;
+double samples_of(const OIIO::ImageSpec& spec, const std::string& channel) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+    if (may_state_samples(attribute.name().string()))
+      texts.emplace_back(attribute.name().string(), attribute.get_string());
+  return samples_stated(texts, channel);
 }
 
 PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
@@ -362,7 +310,7 @@ Image read_map(const PictureBytes& file, const GainMap& gain, PictureClaim claim
 }
 
 /// Brightens the picture by its gain map, if it has one.
-void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const ColourMeaning& meaning,
+void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const ProfiledMeaning& meaning,
               Picture& picture) {
   if (file.base_only) {
     // Without --base-only a damaged map is an error; here it must not be one.
@@ -387,7 +335,7 @@ bool has_plain_rows(const OIIO::ImageSpec& spec, const PictureSource& source) {
   return source.format == "openexr" && spec.tile_width == 0 && source.data == source.display;
 }
 
-void read_in_bands(const Reader& whole, const PictureLayer& layer, const ColourMeaning& meaning,
+void read_in_bands(const Reader& whole, const PictureLayer& layer, const ProfiledMeaning& meaning,
                    const PictureBytes& file, const PictureSource& source) {
   constexpr int kBandPixels = 2 << 20;
   constexpr int kBlock = 32;  // rows that an EXR may pack together
@@ -398,7 +346,7 @@ void read_in_bands(const Reader& whole, const PictureLayer& layer, const ColourM
     reader.first_row = y;
     reader.rows = std::min(rows, height - y);
     Picture band{read_channels(reader, layer.where), {}, source};
-    decode_colours(file.path, meaning, band);
+    to_light(file.path, meaning, band);
     file.on_rows(band, y);
   }
 }
@@ -424,19 +372,14 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   Picture picture;
   PictureSource& source = picture.source;
   const OIIO::TypeDesc type = spec.channelformat(int(layer.where[0]));
-  source.format = format;
-  source.layer = layer.name;
-  for (const std::size_t c : layer.where) source.channels.push_back(parts[layer.part].channels[c]);
-  source.alpha = layer.alpha;
+  source = picture_source(format, parts, layer);
   source.value_type = type.c_str();
   source.samples = samples_of(spec, source.channels[0]);
   source.data = data_window(spec);
   source.display = display_window(spec, format);
-  source.mip_levels = parts[layer.part].mip_levels;
-  for (const PictureLayer& one : picture_layers(parts)) source.layers.push_back(one.name);
 
-  ColourMeaning meaning;
-  if (layer.is_colour) meaning = colour_meaning(file, spec, format, type);
+  ProfiledMeaning meaning;
+  if (layer.is_colour) meaning = {colour_meaning(file, spec, format, type)};
   add_profile(file, spec, format, layer, source, meaning);
   const Reader reader{path, *input, part, spec};
   if (file.on_rows && has_plain_rows(spec, source)) {
@@ -444,7 +387,7 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
     return picture;
   }
   picture.image = read_channels(reader, layer.where);
-  decode_colours(path, meaning, picture);
+  to_light(path, meaning, picture);
   if (format == "jpeg" && layer_name.empty()) add_gain(file, spec, meaning, picture);
   source.multiplied_by_alpha = layer.is_colour && is_unassociated(spec, format);
   if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
@@ -485,9 +428,6 @@ ColourTable table_of_colours(std::string_view name) {
 
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
-const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read,
-                                                      lobelia::list_layers,
-                                                      lobelia::start_png,
-                                                      lobelia::table_of_colours,
-                                                      [] { OIIO::attribute("exr_threads", -1); },
-                                                      [] { OIIO::ImageInput::create("openexr"); }};
+const lobelia::ImageIoTable lobelia_image_io_table = {
+    lobelia::read, lobelia::list_layers, lobelia::table_of_colours,
+    [] { OIIO::attribute("exr_threads", -1); }, [] { OIIO::ImageInput::create("openexr"); }};

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "core/image_io.hpp"
@@ -24,24 +23,16 @@ struct PictureBytes {
   std::string_view format;
   std::filesystem::path reopen = {};
   bool base_only = false;                                   ///< leaves out a gain map
+  bool on_one_thread = false;                               ///< the calling one
   std::function<void(const PictureClaim&)> on_header = {};  ///< may throw
   /// If set, a picture that can be decoded in bands of rows goes there instead, from the top: the band as a picture with the
   /// source of all, and its first row.
   std::function<void(const Picture& band, int y)> on_rows = {};
 };
 
-/// Encodes a PNG a few rows at a time; each call returns the next bytes of its file.
-class PngEncoder {
- public:
-  virtual ~PngEncoder() = default;
-  virtual std::vector<std::uint8_t> encode(const DisplayImage& rows) = 0;
-  virtual std::vector<std::uint8_t> finish() = 0;
-};
-
 struct ImageIoTable {
   Picture (*read_picture)(const PictureBytes&, const std::string& layer);
   std::vector<std::string> (*layer_names)(const PictureBytes&);
-  std::unique_ptr<PngEncoder> (*start_png)(int width, int height, const ImageMetadata&);
   ColourTable (*colour_table)(std::string_view);
   void (*decode_on_calling_threads)();
   void (*load_formats)();  ///< now instead of at the first picture

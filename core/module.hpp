@@ -34,6 +34,7 @@ class Module {
 inline constinit Module colour_module{"lobelia_colour.so", "colour module"};
 inline constinit Module embree_module{"lobelia_embree.so", "Embree's module"};
 inline constinit Module glpk_module{"lobelia_glpk.so", "GLPK's module"};
+inline constinit Module png_module{"lobelia_png.so", "PNG module"};
 inline constinit Module server_module{"lobelia_server.so", "server module"};
 inline constinit Module zip_module{"lobelia_zip.so", "ZIP module"};
 

@@ -1,6 +1,7 @@
 // lobelia_picture_reader: decodes pictures for the program, each in a process of its own (core/contained_reader.hpp).
 //
-// It stays single-threaded, so that a fork is complete, and looks at no picture itself.
+// It stays single-threaded, so that a fork is complete, and looks at no picture itself. What is plain (core/plain_picture.hpp)
+// needs no OpenImageIO.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -25,12 +26,17 @@
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
+#include "core/plain_picture.hpp"
+#include "core/png_module.hpp"
 #include "core/reading_limits.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr int kProgram = 0;  // the socket to the program
+
+/// A child's exit code, of which nothing was answered: the picture is not plain, and OpenImageIO is not loaded.
+constexpr int kNotPlain = 42;
 
 /// Smaller EXRs are decoded on one thread: starting more takes longer.
 constexpr std::size_t kManyThreadsBytes = std::size_t{1} << 20;
@@ -87,7 +93,7 @@ bool are_same(const Image& a, const Image& b) {
          std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
 }
 
-/// Reads a picture twice, into memory with different fills: pixels that differ are not in the file.
+/// Reads it by OpenImageIO, twice for some formats, into memory with different fills: pixels that differ are not in the file.
 Picture read_checked(const ImageIoTable& table, const PictureBytes& file,
                      const std::string& layer) {
   Picture picture = table.read_picture(file, layer);
@@ -139,13 +145,14 @@ ReadingAnswer answer_of(const PictureSource& source, int width, int height, bool
   return answer;
 }
 
-ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view bytes,
+ReadingAnswer decode(const ImageIoTable* table, const Job& job, std::string_view bytes,
                      std::uint64_t began_with, Picture& picture, Sender& sender) {
   const ReadingRequest& request = job.request;
   PictureBytes file{.path = request.path,
                     .bytes = bytes,
                     .format = request.format,
-                    .base_only = request.base_only};
+                    .base_only = request.base_only,
+                    .on_one_thread = request.on_one_thread || bytes.size() < kManyThreadsBytes};
   if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
   if (!may_leave_memory_uninitialised(request.format))
     file.on_rows = [&](const Picture& band, int) {
@@ -165,13 +172,21 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
     limit_processor_time(seconds_to_read(claim, bytes.size()));
   };
   ReadingAnswer answer;
+  const auto needs_table = [&] {
+    if (!table) ::_exit(kNotPlain);
+    if (file.on_one_thread) table->decode_on_calling_threads();
+  };
   try {
     if (request.names_only) {
-      answer.names = table.layer_names(file);
+      auto names = plain_layer_names(file);
+      if (!names) needs_table();
+      answer.names = names ? std::move(*names) : table->layer_names(file);
       answer.kind = ReadingAnswer::Kind::kNames;
       return answer;
     }
-    picture = read_checked(table, file, request.layer);
+    auto plain = read_plain_picture(file, request.layer);
+    if (!plain) needs_table();
+    picture = plain ? std::move(*plain) : read_checked(*table, file, request.layer);
     answer = answer_of(picture.source, picture.image.width(), picture.image.height(),
                        picture.overscan.pixel_count() > 0);
   } catch (const std::bad_alloc&) {
@@ -185,7 +200,7 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
 }
 
 /// Runs in the child.
-[[noreturn]] void serve(const ImageIoTable& table, const Job& job, std::uint64_t began_with) {
+[[noreturn]] void serve(const ImageIoTable* table, const Job& job, std::uint64_t began_with) {
   ::close(kProgram);
   struct stat status {};
   ::fstat(job.file, &status);
@@ -195,7 +210,6 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
   limit_memory(began_with + kMemoryToOpen + size);
   limit_processor_time(seconds_to_read({}, size));
   lock_down(job.request.format.empty());
-  if (job.request.on_one_thread || size < kManyThreadsBytes) table.decode_on_calling_threads();
   // If the file becomes shorter meanwhile, only this process crashes.
   const void* bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, job.file, 0);
   if (bytes == MAP_FAILED) ::_exit(1);
@@ -233,27 +247,58 @@ ReaderVerdict wait_for_child(pid_t child, int alive, std::uint64_t seconds) {
   return verdict;
 }
 
+/// OpenImageIO is loaded for the first picture that needs it, because a fork with its libraries takes longer too.
+class Server {
+ public:
+  /// Answers a job. False if the program is gone.
+  bool answer(const Job& job) {
+    struct stat status {};
+    ::fstat(job.file, &status);
+    const std::uint64_t most = seconds_to_wait(std::uint64_t(status.st_size), job.request.limit);
+    if (job.request.format == "png") png_table();
+    if (!may_be_plain(job.request.format)) load();
+    const bool was_loaded = table_ != nullptr;
+    ReaderVerdict verdict = decode_in_child(job, most);
+    if (!was_loaded && WIFEXITED(verdict.status) && WEXITSTATUS(verdict.status) == kNotPlain) {
+      load();
+      verdict = decode_in_child(job, most);
+    }
+    for (const int mine : {job.file, job.answer}) ::close(mine);
+    return ::send(kProgram, &verdict, sizeof verdict, MSG_NOSIGNAL) >= 0;
+  }
+
+ private:
+  void load() {
+    if (table_) return;
+    table_ = &image_io_table();
+    table_->load_formats();
+  }
+  ReaderVerdict decode_in_child(const Job& job, std::uint64_t most_seconds) const {
+    const std::uint64_t began_with = address_space();
+    int alive[2];
+    const auto fails = [](bool has) {
+      if (has) throw Error(ExitCode::kNoResources, "no more processes or files");
+    };
+    fails(::pipe2(alive, O_CLOEXEC) != 0);
+    const pid_t child = ::fork();
+    if (child == 0) serve(table_, job, began_with);
+    ::close(alive[1]);
+    fails(child < 0);
+    const ReaderVerdict verdict = wait_for_child(child, alive[0], most_seconds);
+    ::close(alive[0]);
+    return verdict;
+  }
+
+  const ImageIoTable* table_ = nullptr;
+};
+
 int run() {
   ::close_range(3, ~0u, 0);  // whatever the program left open
   ::signal(SIGCHLD, SIG_DFL);
   ::signal(SIGXCPU, SIG_DFL);
-  const ImageIoTable& table = image_io_table();
-  table.load_formats();
-  const std::uint64_t began_with = address_space();
-  for (Job job; receive(job);) {
-    struct stat status {};
-    ::fstat(job.file, &status);
-    int alive[2];
-    if (::pipe2(alive, O_CLOEXEC) != 0) return int(ExitCode::kNoResources);
-    const pid_t child = ::fork();
-    if (child == 0) serve(table, job, began_with);
-    for (const int mine : {alive[1], job.file, job.answer}) ::close(mine);
-    if (child < 0) return int(ExitCode::kNoResources);
-    const ReaderVerdict verdict = wait_for_child(
-        child, alive[0], seconds_to_wait(std::uint64_t(status.st_size), job.request.limit));
-    ::close(alive[0]);
-    if (::send(kProgram, &verdict, sizeof verdict, MSG_NOSIGNAL) < 0) return 0;
-  }
+  Server server;
+  for (Job job; receive(job);)
+    if (!server.answer(job)) break;
   return 0;
 }
 

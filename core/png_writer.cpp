@@ -1,7 +1,7 @@
 #include "core/png_writer.hpp"
 
 #include "core/files.hpp"
-#include "core/image_io_module.hpp"
+#include "core/png_module.hpp"
 
 namespace lobelia {
 
@@ -12,7 +12,7 @@ struct PngWriter::State {
 
 PngWriter::PngWriter(const std::filesystem::path& path, int width, int height,
                      const ImageMetadata& metadata)
-    : state_(new State{image_io_table().start_png(width, height, metadata), PartFile(path)}) {}
+    : state_(new State{png_table().start(width, height, metadata), PartFile(path)}) {}
 
 PngWriter::~PngWriter() = default;
 

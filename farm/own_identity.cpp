@@ -57,8 +57,8 @@ Content find_libraries() {
   const std::string loader = find_loader();
   std::vector<fs::path> files;
   // The other modules have no part in a result.
-  for (const char* own :
-       {image_io_module.file(), colour_module.file(), embree_module.file(), kReaderFile}) {
+  for (const char* own : {image_io_module.file(), colour_module.file(), embree_module.file(),
+                          png_module.file(), kReaderFile}) {
     files.push_back(companion_file(own));
     reader.add("library", own, files.back());
   }

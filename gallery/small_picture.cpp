@@ -7,8 +7,8 @@
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/png_module.hpp"
 #include "core/sha256.hpp"
-#include "gallery/plain_png.hpp"
 #include "gallery/unless_input.hpp"
 
 namespace lobelia::gallery {
@@ -20,6 +20,8 @@ constexpr int kSmallSide = 160;  // pixels, of the longer side
 /// A picture file up to this size is its own preview.
 constexpr std::uintmax_t kLightBytes = 48 << 10;
 constexpr std::uint64_t kMostShownBytes = std::uint64_t{1} << 28;  // of a PNG file
+/// Pixels a side of a PNG that is read in this process: a process for each (decision 17) would be most of the work.
+constexpr int kMostPlainSide = 4096;
 
 }  // namespace
 
@@ -76,7 +78,8 @@ Image light_of(const DisplayImage& shown) {
 
 std::optional<ShownPicture> ShownPicture::read(const fs::path& file) {
   return unless_input([&]() -> std::optional<ShownPicture> {
-    std::optional<DisplayImage> plain = plain_png(read_file(file, kMostShownBytes));
+    std::optional<DisplayImage> plain =
+        png_table().read_codes(read_file(file, kMostShownBytes), kMostPlainSide);
     Image light = plain ? light_of(*plain) : read_image(file);
     return ShownPicture(std::move(plain), std::move(light));
   });

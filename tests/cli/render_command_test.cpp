@@ -178,7 +178,7 @@ TEST(RenderCommand, WithoutModulesIsStillHelpful) {
   EXPECT_EQ(result.exit_code, 70);
   EXPECT_THAT(result.output_tail, HasSubstr("camera rays        65536"));
   EXPECT_THAT(result.output_tail,
-              HasSubstr("lobelia_image_io.so is neither beside " +
+              HasSubstr("lobelia_png.so is neither beside " +
                         std::filesystem::canonical(directory.path() / "lobelia").string()));
   EXPECT_TRUE(std::filesystem::exists(directory.path() / "x.exr"));
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "y.png"));

@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/image_io.hpp"
 #include "gallery/cell_chunk.hpp"
 #include "gallery/gallery.hpp"
-#include "gallery/plain_png.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 
@@ -69,25 +67,6 @@ TEST_F(PackedGallery, has_no_link_that_leads_nowhere) {
   EXPECT_EQ(site.pages().size(), 2u);
   EXPECT_THAT(site.bad_links(), IsEmpty());
   EXPECT_THAT(site.active_content(), IsEmpty());
-}
-
-TEST(PlainPng, reads_what_the_farm_writes_and_nothing_that_is_damaged) {
-  DisplayImage image{37, 23, {}};
-  for (int i = 0; i < 3 * 37 * 23; ++i) image.rgb.push_back(std::uint8_t(i * i / 7));
-  const std::string file = png_bytes(image, {{"Software", "a test"}});
-  const auto read = plain_png(file);
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->width, 37);
-  EXPECT_EQ(read->height, 23);
-  EXPECT_EQ(read->rgb, image.rgb);
-  for (std::size_t size = 0; size < file.size() - 12; ++size)
-    EXPECT_FALSE(plain_png(file.substr(0, size))) << size;
-  std::string wide = file;
-  wide[17] = 1;  // claims more pixels than it has
-  EXPECT_FALSE(plain_png(wide));
-  std::string grey = file;
-  grey[25] = 0;
-  EXPECT_FALSE(plain_png(grey));
 }
 
 TEST(CellChunk, takes_markup_apart_without_a_loss) {
