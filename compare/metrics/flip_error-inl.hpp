@@ -48,7 +48,7 @@ HWY_INLINE Lanes log_2(Lanes x) {
                     hn::ConvertTo(Floats(), exponent));
 }
 
-/// 2^x to a rounding, for x <= 0; below -125 it is 0.
+/// 2^x to a rounding, for x < 127; below -125 it is 0.
 HWY_INLINE Lanes exp_2(Lanes x) {
   const Lanes limited = hn::Max(x, set(-126)), whole = hn::Round(limited);
   const Lanes rest = hn::Mul(hn::Sub(limited, whole), set(0.693147181f));
@@ -171,11 +171,14 @@ HWY_INLINE Lanes log_of_colour_error(Lanes distance) {
   const auto is_above = hn::Gt(share, set(1));
   Lanes result = hn::Add(log, set(kLogKneeError));
   if (!hn::AllFalse(Floats(), is_above)) {
-    // The power is d = 2^log of the knee's; above it, 0.95 + 0.05 * (0.4 d - 0.4) / 0.6.
+    // The power is d = 2^log of the knee's; above it, 1 + less = 0.95 + 0.05 * (0.4 d - 0.4) / 0.6.
     constexpr float kRise = (1 - kKneeError) * kKneeShare / (1 - kKneeShare);
-    const Lanes over = hn::Sub(hn::Div(set(1), exp_2(hn::Neg(hn::Max(log, set(0))))), set(1));
-    const Lanes error = hn::Min(hn::MulAdd(set(kRise), over, set(kKneeError)), set(1));
-    result = hn::IfThenElse(is_above, log_2(error), result);
+    const Lanes power = exp_2(hn::Max(log, set(0)));
+    const Lanes less = hn::Min(hn::MulAdd(set(kRise), power, set(kKneeError - 1 - kRise)), set(0));
+    constexpr float k = 1.44269504f;
+    const Lanes log_of_error =
+        hn::Mul(less, polynomial(less, k, -k / 2, k / 3, -k / 4, k / 5, -k / 6));
+    result = hn::IfThenElse(is_above, log_of_error, result);
   }
   return hn::IfThenElse(hn::Gt(share, set(1e-37f)), result, set(kNoFlip));
 }

@@ -18,7 +18,7 @@ namespace {
 
 // Columns of a tile: few enough to keep a filter's rows in the first cache, and all planes of both pictures in the
 // second. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
-constexpr int kTileWidth = 256, kTileHeight = 256;
+constexpr int kTileWidth = 256, kTileHeight = 544;
 
 /// The smallest rectangle around pixels.
 struct FlipArea {
@@ -146,6 +146,7 @@ FlipTile differing_part(const Image& a, const Image& b, const FlipTile& tile, in
   };
   for (int y = top; y < bottom; ++y) {
     const std::span<const float> of_a = row(a, y, left, right), of_b = row(b, y, left, right);
+    if (std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0) continue;
     const auto first = std::ranges::mismatch(of_a, of_b).in1;
     if (first == of_a.end()) continue;
     const auto last = std::mismatch(of_a.rbegin(), of_a.rend(), of_b.rbegin()).first;

@@ -110,67 +110,56 @@ void filter_along_lanes(const FlipFilters& filters, const FlipColours& a, const 
   }
 }
 
-/// Filters kVectors registers of a few rows of a block down, by an even filter, and with kOdd also by an odd one. The
-/// samples of a row at a tap are those of its neighbour at the next tap, so that each is loaded once for all rows.
-template <std::size_t kVectors, std::size_t kRows, bool kOdd, class Write>
-HWY_INLINE void filter_rows(const double* HWY_RESTRICT even_taps,
-                            const double* HWY_RESTRICT odd_taps, std::size_t taps,
-                            const double* base, const std::size_t* offsets, Write write) {
+/// Filters one register of kRows rows of a block down, by an even filter, and with kOdd also by an odd one. The samples of a
+/// row at a tap are those of its neighbour at the next tap, so that each is loaded once for all rows.
+template <std::size_t kRows, bool kOdd, class Write>
+HWY_INLINE void filter_rows(const FlipTaps& even_taps, const FlipTaps& odd_taps, const double* base,
+                            const std::size_t* offsets, Write write) {
   const Samples d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto at = [&](std::ptrdiff_t row, std::size_t v)
-                      HWY_ATTR { return hn::Load(d, base + offsets[row] + v * lanes); };
+  const auto at = [=](std::ptrdiff_t row) HWY_ATTR { return hn::Load(d, base + offsets[row]); };
   // below[j] is the sample k rows below row j, above[j] that k rows above it.
-  SampleLanes even[kRows][kVectors], odd[kRows][kVectors], below[kRows][kVectors],
-      above[kRows][kVectors];
-  constexpr auto kLast = std::ptrdiff_t(kRows) - 1;
-  std::ptrdiff_t k = std::ptrdiff_t(taps) - 1;
-  for (std::ptrdiff_t j = 0; j <= kLast; ++j)
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      even[j][v] = odd[j][v] = hn::Zero(d);
-      below[j][v] = at(j + k, v);
-      above[j][v] = at(j - k, v);
-    }
-  for (; k > 0; --k) {
-    const SampleLanes even_tap = hn::Set(d, even_taps[k]), odd_tap = hn::Set(d, odd_taps[k]);
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      for (std::size_t j = 0; j < kRows; ++j) {
-        even[j][v] = hn::MulAdd(even_tap, hn::Add(below[j][v], above[j][v]), even[j][v]);
-        if constexpr (kOdd)
-          odd[j][v] = hn::MulAdd(odd_tap, hn::Sub(below[j][v], above[j][v]), odd[j][v]);
-      }
-      for (std::size_t j = kRows - 1; j > 0; --j) below[j][v] = below[j - 1][v];
-      below[0][v] = at(k - 1, v);
-      for (std::size_t j = 0; j + 1 < kRows; ++j) above[j][v] = above[j + 1][v];
-      above[kRows - 1][v] = at(kLast + 1 - k, v);
-    }
+  SampleLanes even[kRows], odd[kRows], below[kRows], above[kRows];
+  auto k = std::ptrdiff_t(even_taps.size()) - 1;
+  for (std::size_t j = 0; j < kRows; ++j) {
+    even[j] = odd[j] = hn::Zero(d);
+    below[j] = at(std::ptrdiff_t(j) + k);
+    above[j] = at(std::ptrdiff_t(j) - k);
   }
-  const SampleLanes middle = hn::Set(d, even_taps[0]);
-  for (std::size_t j = 0; j < kRows; ++j)
-    for (std::size_t v = 0; v < kVectors; ++v)
-      write(j, v * lanes, hn::MulAdd(middle, below[j][v], even[j][v]), odd[j][v]);
+  const double *const even_tap = even_taps.data(), *const odd_tap = odd_taps.data();
+  for (; k > 0; --k) {
+    const SampleLanes tap = hn::Set(d, even_tap[k]), tap_of_odd = hn::Set(d, odd_tap[k]);
+    for (std::size_t j = 0; j < kRows; ++j) {
+      even[j] = hn::MulAdd(tap, hn::Add(below[j], above[j]), even[j]);
+      if constexpr (kOdd) odd[j] = hn::MulAdd(tap_of_odd, hn::Sub(below[j], above[j]), odd[j]);
+    }
+    for (std::size_t j = kRows - 1; j > 0; --j) below[j] = below[j - 1];
+    below[0] = at(k - 1);
+    for (std::size_t j = 0; j + 1 < kRows; ++j) above[j] = above[j + 1];
+    above[kRows - 1] = at(std::ptrdiff_t(kRows) - k);
+  }
+  const SampleLanes middle = hn::Set(d, even_tap[0]);
+  for (std::size_t j = 0; j < kRows; ++j) write(j, hn::MulAdd(middle, below[j], even[j]), odd[j]);
 }
 
 /// Filters a block down, plane by plane, so that the rows of one stay in the first cache.
 HWY_INLINE void filter_down(const FlipFilters& filters, const FlipRows& in, std::size_t block,
                             const FlipTapsDown& taps, FlipFiltered& out) {
-  // As many rows and columns as there are registers for.
-  constexpr std::size_t kVectors = HWY_TARGET <= HWY_AVX3 ? 2 : 1, kRows = 4;
+  // As many rows as there are registers for.
+  constexpr std::size_t kRows = HWY_TARGET <= HWY_AVX3 ? 8 : 4;
+  static_assert(kFlipBand % kRows == 0);
   const Samples d;
-  const auto for_plane = [&](FlipPlane plane, std::size_t at_once, auto work) HWY_ATTR {
+  const auto for_plane = [&](FlipPlane plane, auto work) HWY_ATTR {
     for (std::size_t row = 0; row < kFlipBand; row += kRows)
-      for (std::size_t column = 0; column < kFlipBlock; column += at_once * hn::Lanes(d))
+      for (std::size_t column = 0; column < kFlipBlock; column += hn::Lanes(d))
         work(in.block(plane, block) + column, taps.offsets + row + taps.radius, row, column);
   };
   const auto filter = [&](FlipPlane plane, const FlipTaps& by, FlipFiltered::Values& to) HWY_ATTR {
-    for_plane(plane, kVectors,
-              [&](const double* base, const std::size_t* offsets, std::size_t row,
-                  std::size_t column) HWY_ATTR {
-                filter_rows<kVectors, kRows, false>(
-                    by.data(), by.data(), by.size(), base, offsets,
-                    [&](std::size_t next, std::size_t i, auto sum, auto)
-                        HWY_ATTR { hn::Store(sum, d, to[row + next] + column + i); });
-              });
+    for_plane(plane, [&](const double* base, const std::size_t* offsets, std::size_t row,
+                         std::size_t column) HWY_ATTR {
+      filter_rows<kRows, false>(by, by, base, offsets,
+                                [&](std::size_t next, auto sum, auto)
+                                    HWY_ATTR { hn::Store(sum, d, to[row + next] + column); });
+    });
   };
   filter(kFlipY, filters.luminance, out.y);
   filter(kFlipCx, filters.red_green, out.cx);
@@ -178,16 +167,14 @@ HWY_INLINE void filter_down(const FlipFilters& filters, const FlipRows& in, std:
   filter(kFlipCz2, filters.blue_yellow_2, out.cz_2);
   filter(kFlipEdge, filters.gaussian, out.dx);
   filter(kFlipPoint, filters.gaussian, out.ddx);
-  for_plane(kFlipSmooth, 1,
-            [&](const double* base, const std::size_t* offsets, std::size_t row, std::size_t column)
-                HWY_ATTR {
-                  filter_rows<1, kRows, true>(
-                      filters.point.data(), filters.edge.data(), filters.edge.size(), base, offsets,
-                      [&](std::size_t next, std::size_t i, auto even, auto odd) HWY_ATTR {
-                        hn::Store(even, d, out.ddy[row + next] + column + i);
-                        hn::Store(odd, d, out.dy[row + next] + column + i);
-                      });
-                });
+  for_plane(kFlipSmooth, [&](const double* base, const std::size_t* offsets, std::size_t row,
+                             std::size_t column) HWY_ATTR {
+    filter_rows<kRows, true>(filters.point, filters.edge, base, offsets,
+                             [&](std::size_t next, auto even, auto odd) HWY_ATTR {
+                               hn::Store(even, d, out.ddy[row + next] + column);
+                               hn::Store(odd, d, out.dy[row + next] + column);
+                             });
+  });
 }
 
 void block_logs_lanes(const FlipFilters& filters, const FlipRows& a, const FlipRows& b,
