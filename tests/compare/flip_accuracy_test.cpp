@@ -56,7 +56,6 @@ void expect_accurate(const std::string& name, const Image& a, const Image& b,
   EXPECT_LT(error, kBound) << name;
   const double exchanged = largest_error(DisplayLight(b, 0), DisplayLight(a, 0), pixels_per_degree);
   EXPECT_LT(exchanged, kBound) << name << ", exchanged";
-  if (std::getenv("LOBELIA_SHOW_FLIP")) printf("%-40s %.2g %.2g\n", name.c_str(), error, exchanged);
 }
 
 TEST(FlipAccuracy, IsAMillionthOnRandomPicturesAtRandomDistances) {
