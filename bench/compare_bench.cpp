@@ -71,13 +71,13 @@ const int kRegistered = [] {
 
 /// The sum of in(x + i, y + j) * across[i] * down[j] over the window. Border pixels repeat.
 template <class In>
-float convolve(const In& in, int width, int height, int x, int y, const std::vector<float>& across,
-               const std::vector<float>& down) {
-  const int radius = int(across.size() / 2);
-  float sum = 0;
+double convolve(const In& in, int width, int height, int x, int y, const FlipTaps& across,
+                const FlipTaps& down) {
+  const int radius = int(std::min(across.size(), down.size())) - 1;
+  double sum = 0;
   for (int j = -radius; j <= radius; ++j)
     for (int i = -radius; i <= radius; ++i)
-      sum += across[std::size_t(i + radius)] * down[std::size_t(j + radius)] *
+      sum += across[std::size_t(std::abs(i))] * down[std::size_t(std::abs(j))] *
              in(std::clamp(x + i, 0, width - 1), std::clamp(y + j, 0, height - 1));
   return sum;
 }
@@ -85,27 +85,26 @@ float convolve(const In& in, int width, int height, int x, int y, const std::vec
 /// The filters of LDR-FLIP for both pictures on a crop, without the distance of the results.
 void plain_filters(benchmark::State& state) {
   constexpr int kWidth = 192, kHeight = 108;
-  const FlipFilters f{float(kDefaultPixelsPerDegree)};
+  const FlipFilters f(kDefaultPixelsPerDegree);
   const Image images[] = {picture(kWidth, kHeight, 1, 0.2f), picture(kWidth, kHeight, 2, 0.1f)};
-  float sum = 0;
+  double sum = 0;
   for (auto _ : state)
     for (const Image& image : images) {
       static_assert(kWidth * kHeight % kFlipBlock == 0);
-      std::vector<float> planes[4];
+      std::vector<double> planes[3];
       for (auto& plane : planes) plane.resize(image.pixel_count());
       std::vector<float> shown(image.values().size());
       for (int y = 0; y < kHeight; ++y)
         DisplayLight(image, 0).fill(
             y, 0, std::span(shown).subspan(std::size_t(3 * kWidth * y), 3 * kWidth));
-      flip_colours(shown.data(),
-                   {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()},
+      flip_colours(shown.data(), {planes[0].data(), planes[1].data(), planes[2].data()},
                    image.pixel_count());
       const auto plane = [&](std::size_t i) {
         return [&values = planes[i]](int x, int y) {
           return values[std::size_t(y) * kWidth + std::size_t(x)];
         };
       };
-      const auto lum = plane(0), cx = plane(1), cz = plane(2), grey = plane(3);
+      const auto lum = plane(0), cx = plane(1), cz = plane(2), &grey = lum;
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
           const auto filtered = [&](const auto& in, const auto& across, const auto& down) {

@@ -411,13 +411,17 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};
   } else {
     const MetricList list = metrics_asked_for(options);
-    if (need_display(list)) result.viewing = with_exposures(options.viewing, a, b);
+    // Limits that hardly see the highlight draw a warning.
+    const bool find_highlight =
+        options.highlight && (need_highlight(list) || !options.limits.empty());
+    const bool choose_exposures = need_display(list) && options.viewing.automatic;
+    const Peaks peaks = find_highlight || choose_exposures ? peaks_of(a, b) : Peaks{};
+    if (need_display(list)) result.viewing = with_exposures(options.viewing, peaks);
     Viewing viewing = result.viewing;
     if (!need_display(list)) viewing.display = nullptr;
     std::vector<std::uint8_t> highlight;
-    // Limits that hardly see it draw a warning.
-    if (options.highlight && (need_highlight(list) || !options.limits.empty())) {
-      highlight = highlight_region(a, b, options.surfaces);
+    if (find_highlight) {
+      highlight = highlight_region(a, b, peaks, options.surfaces);
       result.highlight_pixels = std::ranges::count(highlight, 1);
       result.highlight_share = double(*result.highlight_pixels) / double(a.pixel_count());
     }

@@ -18,16 +18,6 @@ constexpr double kDimmestShown = 0.5 / 255 / 12.92;
 /// A picture that is so many times brighter than the other has a firefly, which would hide everything else.
 constexpr double kFarBrighter = 64;
 
-struct Peaks {
-  double a = 0, b = 0;
-};
-
-Peaks peaks_of(const Image& a, const Image& b) {
-  Peaks peaks;
-  oneapi::tbb::parallel_invoke([&] { peaks.a = peak_value(a); }, [&] { peaks.b = peak_value(b); });
-  return peaks;
-}
-
 /// Sets out[i] to 1 where a value within `radius` of row[i] is not 0.
 void grow_row(std::span<const std::uint8_t> row, std::size_t radius, std::uint8_t* out) {
   std::size_t next = 0;  // values before it have been set
@@ -40,11 +30,21 @@ void grow_row(std::span<const std::uint8_t> row, std::size_t radius, std::uint8_
 
 }  // namespace
 
+Peaks peaks_of(const Image& a, const Image& b) {
+  Peaks peaks;
+  oneapi::tbb::parallel_invoke([&] { peaks.a = peak_value(a); }, [&] { peaks.b = peak_value(b); });
+  return peaks;
+}
+
 std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
+                                           std::span<const std::uint8_t> mask) {
+  return highlight_region(a, b, peaks_of(a, b), mask);
+}
+
+std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b, const Peaks& peaks,
                                            std::span<const std::uint8_t> mask) {
   std::vector<std::uint8_t> region(a.pixel_count(), 0);
   const auto width = std::size_t(a.width());
-  const Peaks peaks = peaks_of(a, b);
   for (const auto& [image, peak] : {std::pair(&a, peaks.a), {&b, peaks.b}}) {
     const double least = kHighlightShare * peak;
     if (!(least > 0)) continue;
@@ -85,8 +85,11 @@ std::vector<std::uint8_t> grown(std::span<const std::uint8_t> region, int width,
 }
 
 Viewing with_exposures(Viewing viewing, const Image& a, const Image& b) {
+  return viewing.automatic ? with_exposures(viewing, peaks_of(a, b)) : viewing;
+}
+
+Viewing with_exposures(Viewing viewing, const Peaks& peaks) {
   if (!viewing.automatic) return viewing;
-  const Peaks peaks = peaks_of(a, b);
   const auto [least, most] = std::minmax({peaks.a, peaks.b});
   const double peak = least > 0 && most > kFarBrighter * least ? least : most;
   viewing.exposure_stops = 0;

@@ -8,10 +8,18 @@ namespace lobelia {
 /// A pixel is in the highlight if a value of it is at least this share of its picture's brightest value.
 inline constexpr double kHighlightShare = 0.05;
 
+/// The brightest R, G or B value of each picture; 0 without a positive value.
+struct Peaks {
+  double a = 0, b = 0;
+};
+Peaks peaks_of(const Image& a, const Image& b);
+
 /// By pixel, 1 where the pixel is in the highlight of `a` or of `b`, and inside `mask` unless that is empty: so that a
 /// highlight that one of them lacks is looked at, and a single bright pixel does not hide the other's highlight. All 0
 /// if no value is positive. Finite pictures of one size.
 std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
+                                           std::span<const std::uint8_t> mask);
+std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b, const Peaks& peaks,
                                            std::span<const std::uint8_t> mask);
 
 /// The region grown by `radius` pixels to all sides.
@@ -23,5 +31,6 @@ inline constexpr double kTailStops = 6;
 /// With `viewing.automatic`: two exposures if the brightest value of `a` and `b` would be clipped or not be shown at
 /// exposure 0, and otherwise exposure 0 alone. At the first, the brightest value is white; at the second 1/64 of it is.
 Viewing with_exposures(Viewing viewing, const Image& a, const Image& b);
+Viewing with_exposures(Viewing viewing, const Peaks& peaks);
 
 }  // namespace lobelia

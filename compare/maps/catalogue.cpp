@@ -72,7 +72,7 @@ PixelValues delta_e_itp_map(const MetricInput& input) {
 }
 
 PixelValues flip_ldr_map(const MetricInput& input) {
-  return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)),
+  return flip_error_map(input.shown_a, input.shown_b, FlipFilters(input.pixels_per_degree),
                         input.needed());
 }
 

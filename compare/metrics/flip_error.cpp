@@ -3,9 +3,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <initializer_list>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
-#include <utility>
+#include <memory>
+#include <new>
 
 #include "compare/metrics/flip_kernels.hpp"
 #include "core/aligned.hpp"
@@ -16,7 +18,7 @@ namespace {
 
 // Columns of a tile: few enough to keep a filter's rows in the first cache, and all planes of both pictures in the
 // second. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
-constexpr int kTileWidth = 256, kTileHeight = 256;
+constexpr int kTileWidth = 256, kTileHeight = 544;
 
 /// The smallest rectangle around pixels.
 struct FlipArea {
@@ -34,112 +36,87 @@ struct FlipArea {
   }
 };
 
-/// The filtered rows of a tile, from the top. Pixels of the picture's border repeat beyond it. Holds no more rows than
-/// the filters are high, so that they stay in the cache.
+/// One picture's rows of a tile that have been filtered along. Pixels of the picture's border repeat beyond it. Holds no more
+/// rows than a band and the filters around it are high, so that they stay in the cache.
 class FlipTileRows {
  public:
-  /// The filters and the shown picture must outlive it.
   FlipTileRows(const DisplayLight& shown, const FlipFilters& filters, const FlipTile& tile);
 
-  /// The next row: flip_padded(tile.width) pixels, valid until the next call.
-  const FlipFiltered& next();
+  /// The colours of a row of the picture, to be filtered along.
+  FlipColours colours(int y);
+  /// Its light, with `radius` pixels before the tile.
+  std::span<const float> light() const { return {rgb_, 3 * extended_}; }
+  const FlipRows& filtered() const { return rows_; }
 
  private:
-  /// Planes filtered along the rows, to be filtered down the columns.
-  enum Plane { kY, kCx, kCz1, kCz2, kSmooth, kEdge, kPoint, kPlanes };
-
-  float* row(Plane plane, int y);
-  void filter_along(int y);
-
-  DisplayLight shown_;
+  const DisplayLight& shown_;
   const FlipFilters& filters_;
-  FlipTile tile_;
-  int radius_;    ///< of the largest filter
-  int filtered_;  ///< rows above this one have been filtered along
-  int next_;      ///< row that next() returns
-  std::size_t padded_, extended_;
-  AlignedFloats memory_;
-  float *rgb_, *planes_;
+  int first_;  ///< column of the picture at which a row of input begins
+  std::size_t extended_;
+  AlignedFloats rgb_memory_;
+  std::unique_ptr<double[], AlignedFree> memory_;
+  float* rgb_;
   FlipColours in_;
-  FlipFiltered out_;
-  std::vector<const float*> taps_;
+  FlipRows rows_;
 };
 
 FlipTileRows::FlipTileRows(const DisplayLight& shown, const FlipFilters& filters,
                            const FlipTile& tile)
-    : shown_(shown),
-      filters_(filters),
-      tile_(tile),
-      radius_(std::max(filters.contrast_radius, filters.feature_radius)),
-      filtered_(std::max(0, tile.top - radius_)),
-      next_(tile.top),
-      padded_(flip_padded(std::size_t(tile.width))),
-      extended_(flip_padded(padded_ + 2 * std::size_t(radius_))) {
-  const std::size_t kept = padded_ * (2 * std::size_t(radius_) + 1);
-  constexpr std::size_t kIn = 3 + sizeof(in_) / sizeof(float*),
-                        kOut = sizeof(out_) / sizeof(float*);
-  const std::size_t size = kIn * extended_ + kPlanes * kept + kOut * padded_;
-  memory_ = aligned_floats(size);
-  float* free = memory_.get();
-  const auto take = [&](std::size_t count) { return std::exchange(free, free + count); };
-  rgb_ = take(3 * extended_);
-  for (float** in : {&in_.y, &in_.cx, &in_.cz, &in_.grey}) *in = take(extended_);
-  planes_ = take(kPlanes * kept);
-  for (float** out :
-       {&out_.y, &out_.cx, &out_.cz_1, &out_.cz_2, &out_.dx, &out_.dy, &out_.ddx, &out_.ddy})
-    *out = take(padded_);
+    : shown_(shown), filters_(filters), first_(tile.left - filters.radius()) {
+  const std::size_t padded = flip_padded(std::size_t(tile.width)),
+                    radius = std::size_t(filters.radius());
+  extended_ = flip_padded(padded + 2 * radius);
+  rows_.kept = 2 * radius + kFlipBand;
+  rows_.blocks = padded / kFlipBlock;
+  rgb_memory_ = aligned_floats(3 * extended_);
+  rgb_ = rgb_memory_.get();
+  const std::size_t filtered = FlipRows::size(rows_.kept, rows_.blocks);
+  // kFlipBlock doubles are two lines of the cache.
+  const std::size_t bytes = (filtered + 3 * extended_) * sizeof(double);
+  memory_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
+  if (!memory_) throw std::bad_alloc();
+  rows_.values = memory_.get();
+  double* const in = memory_.get() + filtered;
+  in_ = {in, in + extended_, in + 2 * extended_};
 }
 
-float* FlipTileRows::row(Plane plane, int y) {
-  const int kept = 2 * radius_ + 1;
-  return planes_ + padded_ * std::size_t(plane * kept + y % kept);
-}
-
-void FlipTileRows::filter_along(int y) {
+FlipColours FlipTileRows::colours(int y) {
   // The row is extended by its border pixels, so that no tap needs a test.
-  const int first = tile_.left - radius_, count = int(extended_);
-  const int left = std::clamp(-first, 0, count),
-            right = std::clamp(shown_.width() - first, left, count);
-  shown_.fill(y, first + left, {rgb_ + 3 * left, 3 * std::size_t(right - left)});
+  const int count = int(extended_);
+  const int left = std::clamp(-first_, 0, count),
+            right = std::clamp(shown_.width() - first_, left, count);
+  shown_.fill(y, first_ + left, {rgb_ + 3 * left, 3 * std::size_t(right - left)});
   for (int i = 0; i < left; ++i) std::copy_n(rgb_ + 3 * left, 3, rgb_ + 3 * i);
   for (int i = right; i < count; ++i) std::copy_n(rgb_ + 3 * (right - 1), 3, rgb_ + 3 * i);
   flip_colours(rgb_, in_, extended_);
-
-  const auto filter = [&](const float* in, std::initializer_list<WeightedSum> sums) {
-    const std::size_t taps = sums.begin()->weights.size(), radius = taps / 2;
-    taps_.resize(taps);
-    for (std::size_t k = 0; k < taps; ++k) taps_[k] = in + std::size_t(radius_) - radius + k;
-    weighted_sums(sums, taps_.data(), padded_);
-  };
-  filter(in_.y, {{filters_.luminance, row(kY, y)}});
-  filter(in_.cx, {{filters_.red_green, row(kCx, y)}});
-  filter(in_.cz, {{filters_.blue_yellow_1, row(kCz1, y)}, {filters_.blue_yellow_2, row(kCz2, y)}});
-  filter(in_.grey, {{filters_.gaussian, row(kSmooth, y)},
-                    {filters_.edge, row(kEdge, y)},
-                    {filters_.point, row(kPoint, y)}});
+  // A row of the picture is on other pages than the one before, where the processor does not expect it.
+  if (y + 2 < shown_.height()) {
+    const float* next = shown_.image().pixel(first_ + left, y + 2).data();
+    for (int i = 0; i < 3 * (right - left); i += 16) __builtin_prefetch(next + i);
+  }
+  const int radius = filters_.radius();
+  return {in_.y + radius, in_.cx + radius, in_.cz + radius};
 }
 
-const FlipFiltered& FlipTileRows::next() {
-  const int y = next_++, height = shown_.height();
-  for (const int last = std::min(y + radius_, height - 1); filtered_ <= last; ++filtered_)
-    filter_along(filtered_);
+/// Where the rows of a tile differ: for each block of columns the last row that has a difference within the filters' reach.
+class FlipDifferences {
+ public:
+  FlipDifferences(std::size_t blocks, int radius)
+      : last_(blocks, std::numeric_limits<int>::min() / 2), radius_(radius) {}
 
-  const auto filter = [&](Plane plane, std::initializer_list<WeightedSum> sums) {
-    const int taps = int(sums.begin()->weights.size()), radius = taps / 2;
-    taps_.resize(std::size_t(taps));
-    for (int k = 0; k < taps; ++k)
-      taps_[std::size_t(k)] = row(plane, std::clamp(y + k - radius, 0, height - 1));
-    weighted_sums(sums, taps_.data(), padded_);
-  };
-  filter(kY, {{filters_.luminance, out_.y}});
-  filter(kCx, {{filters_.red_green, out_.cx}});
-  filter(kCz1, {{filters_.blue_yellow_1, out_.cz_1}});
-  filter(kCz2, {{filters_.blue_yellow_2, out_.cz_2}});
-  filter(kEdge, {{filters_.gaussian, out_.dx}});
-  filter(kPoint, {{filters_.gaussian, out_.ddx}});
-  filter(kSmooth, {{filters_.edge, out_.dy}, {filters_.point, out_.ddy}});
-  return out_;
-}
+  void add(int y, std::span<const float> a, std::span<const float> b) {
+    const std::size_t block = 3 * kFlipBlock, reach = block + 6 * std::size_t(radius_);
+    for (std::size_t i = 0; i < last_.size(); ++i)
+      if (std::memcmp(a.data() + i * block, b.data() + i * block, reach * sizeof(float)) != 0)
+        last_[i] = y;
+  }
+  /// Whether rows from y on have an error in the block. Rows within reach of them have been added.
+  bool reach(std::size_t block, int y) const { return last_[block] >= y - radius_; }
+
+ private:
+  std::vector<int> last_;
+  int radius_;
+};
 
 /// The smallest area with all pixels that are not 0; the whole picture if there are no pixels.
 FlipTile area_of(std::span<const std::uint8_t> pixels, int width, int height) {
@@ -156,21 +133,24 @@ FlipTile area_of(std::span<const std::uint8_t> pixels, int width, int height) {
   return area.tile();
 }
 
-/// The part of the tile that has a pixel, within `radius`, where the two pictures differ. Beyond it there is no error.
-FlipTile differing_part(const DisplayLight& a, const DisplayLight& b, const FlipTile& tile,
-                        int radius) {
+}  // namespace
+
+FlipTile differing_part(const Image& a, const Image& b, const FlipTile& tile, int radius) {
   const int left = std::max(0, tile.left - radius), top = std::max(0, tile.top - radius),
             right = std::min(a.width(), tile.left + tile.width + radius),
             bottom = std::min(a.height(), tile.top + tile.height + radius);
-  std::vector<float> rgb_a(3 * std::size_t(right - left)), rgb_b(rgb_a);
   FlipArea area;
+  const auto row = [](const Image& image, int y, int first, int end) {
+    const std::size_t start = std::size_t(y) * std::size_t(image.width());
+    return image.values().subspan(3 * (start + std::size_t(first)), 3 * std::size_t(end - first));
+  };
   for (int y = top; y < bottom; ++y) {
-    a.fill(y, left, rgb_a);
-    b.fill(y, left, rgb_b);
-    const auto first = std::ranges::mismatch(rgb_a, rgb_b).in1;
-    if (first == rgb_a.end()) continue;
-    const auto last = std::mismatch(rgb_a.rbegin(), rgb_a.rend(), rgb_b.rbegin()).first;
-    area.add(y, left + int(first - rgb_a.begin()) / 3, left + int(rgb_a.rend() - last + 2) / 3);
+    const std::span<const float> of_a = row(a, y, left, right), of_b = row(b, y, left, right);
+    if (std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0) continue;
+    const auto first = std::ranges::mismatch(of_a, of_b).in1;
+    if (first == of_a.end()) continue;
+    const auto last = std::mismatch(of_a.rbegin(), of_a.rend(), of_b.rbegin()).first;
+    area.add(y, left + int(first - of_a.begin()) / 3, left + int(of_a.rend() - last + 2) / 3);
   }
   if (area.right == 0) return {tile.left, tile.top, 0, 0};
   const int x = std::max(area.left - radius, tile.left), y = std::max(area.top - radius, tile.top);
@@ -178,23 +158,47 @@ FlipTile differing_part(const DisplayLight& a, const DisplayLight& b, const Flip
           std::min(area.bottom + radius, tile.top + tile.height) - y};
 }
 
-}  // namespace
+void flip_tile_logs(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
+                    const FlipTile& tile, const FlipTile& part, std::span<float> logs) {
+  const int radius = filters.radius(), height = a.height(), bottom = part.top + part.height;
+  FlipTileRows rows_a(a, filters, part), rows_b(b, filters, part);
+  const std::size_t blocks = rows_a.filtered().blocks, kept = rows_a.filtered().kept,
+                    around = kFlipBand + 2 * std::size_t(radius),
+                    of_tile = flip_padded(std::size_t(tile.width));
+  FlipDifferences differences(blocks, radius);
+  std::vector<std::size_t> offsets(around);
+  std::vector<float> band(kFlipBand * blocks * kFlipBlock);
+  int filtered = std::max(0, part.top - radius);
+  for (int y = part.top; y < bottom; y += int(kFlipBand)) {
+    const int rows = std::min(int(kFlipBand), bottom - y);
+    for (const int end = std::min(y + rows + radius, height); filtered < end; ++filtered) {
+      flip_filter_along(filters, rows_a.colours(filtered), rows_b.colours(filtered),
+                        rows_a.filtered(), rows_b.filtered(), std::size_t(filtered) % kept);
+      differences.add(filtered, rows_a.light(), rows_b.light());
+    }
+    for (std::size_t i = 0; i < around; ++i) {
+      const int row = std::clamp(y + int(i) - radius, 0, filtered - 1);
+      offsets[i] = std::size_t(row) % kept * kFlipBlock;
+    }
+    const FlipTapsDown taps{offsets.data(), std::size_t(radius), std::size_t(rows)};
+    std::ranges::fill(band, kNoFlip);
+    for (std::size_t block = 0; block < blocks; ++block)
+      if (differences.reach(block, y))
+        flip_block_logs(filters, rows_a.filtered(), rows_b.filtered(), block, taps,
+                        band.data() + block * kFlipBlock, blocks * kFlipBlock);
+    for (int row = 0; row < rows; ++row)
+      std::copy_n(
+          band.data() + std::size_t(row) * blocks * kFlipBlock, part.width,
+          logs.data() + of_tile * std::size_t(y + row - tile.top) + (part.left - tile.left));
+  }
+}
 
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
                       const FlipTile& tile, std::span<float> errors) {
-  std::ranges::fill(errors, 0.0f);
-  const FlipTile part =
-      differing_part(a, b, tile, std::max(filters.contrast_radius, filters.feature_radius));
-  if (part.width == 0) return;
-  FlipTileRows rows_a(a, filters, part), rows_b(b, filters, part);
-  const std::size_t columns = std::size_t(part.width), padded = flip_padded(columns),
-                    of_tile = flip_padded(std::size_t(tile.width));
-  std::vector<float> row(padded);
-  for (int y = part.top; y < part.top + part.height; ++y) {
-    flip_errors(rows_a.next(), rows_b.next(), row.data(), padded);
-    std::copy_n(row.data(), columns,
-                errors.data() + of_tile * std::size_t(y - tile.top) + (part.left - tile.left));
-  }
+  std::ranges::fill(errors, kNoFlip);
+  const FlipTile part = differing_part(a.image(), b.image(), tile, filters.radius());
+  if (part.width > 0) flip_tile_logs(a, b, filters, tile, part, errors);
+  flip_errors_of(errors.data(), errors.size());
 }
 
 PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
@@ -228,9 +232,6 @@ PixelValues flip_error_map(const DisplayLight& a, const DisplayLight& b, const F
       needed);
 }
 
-int flip_radius(const MetricInput& input) {
-  const FlipFilters filters(float(input.pixels_per_degree));
-  return std::max(filters.contrast_radius, filters.feature_radius);
-}
+int flip_radius(const MetricInput& input) { return FlipFilters(input.pixels_per_degree).radius(); }
 
 }  // namespace lobelia

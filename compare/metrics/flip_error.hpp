@@ -2,6 +2,7 @@
 // see flip_ldr.cpp.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -9,16 +10,21 @@
 
 namespace lobelia {
 
-/// Separable filters for one viewing distance. Each has 2 * radius + 1 taps; the middle one is the pixel itself.
-struct FlipFilters {
-  explicit FlipFilters(float pixels_per_degree);
+/// The middle tap of a filter, then those on one side of it. The other side mirrors them; of `edge` it has the other sign.
+using FlipTaps = std::vector<double>;
 
-  int contrast_radius, feature_radius;
+/// Separable filters for one viewing distance.
+struct FlipFilters {
+  explicit FlipFilters(double pixels_per_degree);
+
+  int contrast_radius, feature_radius;  ///< as defined; taps that are almost 0 are left out
   /// Contrast sensitivity: achromatic, red-green, and blue-yellow as a sum of two Gaussians, each applied in both
   /// directions.
-  std::vector<float> luminance, red_green, blue_yellow_1, blue_yellow_2;
+  FlipTaps luminance, red_green, blue_yellow_1, blue_yellow_2;
   /// Feature detection: a Gaussian across and its first (edge) or second (point) derivative along.
-  std::vector<float> gaussian, edge, point;
+  FlipTaps gaussian, edge, point;
+
+  int radius() const { return std::max(contrast_radius, feature_radius); }
 };
 
 /// Columns [left, left + width), rows [top, top + height).
@@ -26,7 +32,15 @@ struct FlipTile {
   int left, top, width, height;
 };
 
-/// Writes FLIP's error of each pixel of the tile, in [0, 1]. Rows are flip_padded(tile.width) apart.
+/// The part of the tile that has a pixel, within `radius`, where the pictures differ. Beyond it there is no error.
+FlipTile differing_part(const Image& a, const Image& b, const FlipTile& tile, int radius);
+
+/// Writes the logarithm to base 2 of FLIP's error of each pixel of `part`, which is in `tile`; minus infinity for no error.
+/// Rows of the tile are flip_padded(tile.width) apart. Pixels beyond the part are not touched.
+void flip_tile_logs(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
+                    const FlipTile& tile, const FlipTile& part, std::span<float> logs);
+
+/// FLIP's error of each pixel of the tile, in [0, 1], in the same rows.
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
                       const FlipTile& tile, std::span<float> errors);
 

@@ -1,87 +1,95 @@
-// Source, agreement and the reason for float: see flip_ldr.cpp. Section numbers refer to Andersson et al.; the
+// Source, agreement and the reason for float64: see flip_ldr.cpp. Section numbers refer to Andersson et al.; the
 // separation into rows and columns follows the tool's note "separatedConvolutions".
+#include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 #include "compare/metrics/flip_error.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
-constexpr float kPiSquared = kPi * kPi;
+constexpr double kPi = std::numbers::pi, kPiSquared = kPi * kPi;
 
 // Section 4.1.1, Table 1: the contrast sensitivity functions as Gaussians a sqrt(pi/b) exp(-pi^2 x^2 / b), x in
 // degrees. Blue-yellow is the sum of two. The others are normalised, which cancels their a.
-constexpr float kLuminanceB = 0.0047f;
-constexpr float kRedGreenB = 0.0053f;
-constexpr float kBlueYellowA1 = 34.1f, kBlueYellowB1 = 0.04f;
-constexpr float kBlueYellowA2 = 13.5f, kBlueYellowB2 = 0.025f;
-constexpr float kWidestB = kBlueYellowB1;
+constexpr double kLuminanceB = 0.0047;
+constexpr double kRedGreenB = 0.0053;
+constexpr double kBlueYellowA1 = 34.1, kBlueYellowB1 = 0.04;
+constexpr double kBlueYellowA2 = 13.5, kBlueYellowB2 = 0.025;
+constexpr double kWidestB = kBlueYellowB1;
 
 // Section 4.2.1: width in degrees of features that attract the eye.
-constexpr float kFeatureWidth = 0.082f;
+constexpr double kFeatureWidth = 0.082;
 
 // Both kinds of filter end three standard deviations out.
-constexpr float kFilterSigmas = 3.0f;
+constexpr double kFilterSigmas = 3;
 
-float contrast_gaussian(float degrees_squared, float a, float b) {
-  return a * std::sqrt(kPi / b) * std::exp(-kPiSquared * degrees_squared / b);
+// The narrow Gaussians reach to seven and more of theirs. Taps below this share of the largest are left out: they
+// move an error by less than 1e-7, also where it is the power of almost nothing.
+constexpr double kLeastTap = 1e-12;
+
+/// The sum of a whole filter.
+double sum_of(const FlipTaps& taps) {
+  double sum = -taps[0];
+  for (const double tap : taps) sum += 2 * tap;
+  return sum;
 }
 
-/// With the root of the amplitude: a plane is multiplied by it once in each direction.
-float contrast_gaussian_root(float degrees_squared, float a, float b) {
-  return std::sqrt(a * std::sqrt(kPi / b)) * std::exp(-kPiSquared * degrees_squared / b);
+void scale(FlipTaps& taps, double factor) {
+  for (double& tap : taps) tap *= factor;
 }
 
-float sum_of(const std::vector<float>& taps) {
-  return std::accumulate(taps.begin(), taps.end(), 0.0f);
+/// Positive taps sum to 1 and negative ones to -1: a flat picture has no features. `middle` counts the middle tap,
+/// the others stand for two of the filter.
+void balance_even(FlipTaps& taps) {
+  double positive = 0, negative = 0;
+  for (std::size_t k = 0; k < taps.size(); ++k)
+    (taps[k] > 0 ? positive : negative) += (k == 0 ? 1 : 2) * std::abs(taps[k]);
+  for (double& tap : taps) tap /= tap > 0 ? positive : negative;
 }
 
-void scale(std::vector<float>& taps, float factor) {
-  for (float& tap : taps) tap *= factor;
-}
-
-/// Positive taps sum to 1 and negative ones to -1: a flat picture has no features.
-void balance(std::vector<float>& taps) {
-  float positive = 0, negative = 0;
-  for (const float tap : taps) (tap > 0 ? positive : negative) += std::abs(tap);
-  for (float& tap : taps) tap /= tap > 0 ? positive : negative;
+void drop_small(FlipTaps& taps) {
+  while (taps.size() > 1 && taps.back() < kLeastTap * taps.front()) taps.pop_back();
 }
 
 }  // namespace
 
-FlipFilters::FlipFilters(float pixels_per_degree) {
+FlipFilters::FlipFilters(double pixels_per_degree) {
   contrast_radius =
-      int(std::ceil(kFilterSigmas * std::sqrt(kWidestB / (2.0f * kPiSquared)) * pixels_per_degree));
-  const float step = 1.0f / pixels_per_degree;
-  for (int i = -contrast_radius; i <= contrast_radius; ++i) {
-    const float x = float(i) * step, x2 = x * x;
-    luminance.push_back(contrast_gaussian(x2, 1, kLuminanceB));
-    red_green.push_back(contrast_gaussian(x2, 1, kRedGreenB));
-    blue_yellow_1.push_back(contrast_gaussian_root(x2, kBlueYellowA1, kBlueYellowB1));
-    blue_yellow_2.push_back(contrast_gaussian_root(x2, kBlueYellowA2, kBlueYellowB2));
+      int(std::ceil(kFilterSigmas * std::sqrt(kWidestB / (2 * kPiSquared)) * pixels_per_degree));
+  for (int i = 0; i <= contrast_radius; ++i) {
+    const double x = i / pixels_per_degree;
+    const auto gaussian_of = [x](double b) { return std::exp(-kPiSquared * x * x / b); };
+    // With the root of the amplitude: a plane is multiplied by it once in each direction.
+    const auto root = [](double a, double b) { return std::sqrt(a * std::sqrt(kPi / b)); };
+    luminance.push_back(gaussian_of(kLuminanceB));
+    red_green.push_back(gaussian_of(kRedGreenB));
+    blue_yellow_1.push_back(root(kBlueYellowA1, kBlueYellowB1) * gaussian_of(kBlueYellowB1));
+    blue_yellow_2.push_back(root(kBlueYellowA2, kBlueYellowB2) * gaussian_of(kBlueYellowB2));
   }
-  scale(luminance, 1.0f / sum_of(luminance));
-  scale(red_green, 1.0f / sum_of(red_green));
+  scale(luminance, 1 / sum_of(luminance));
+  scale(red_green, 1 / sum_of(red_green));
   // The two planes are added after both directions; all their taps together must sum to 1.
-  const float sum_1 = sum_of(blue_yellow_1), sum_2 = sum_of(blue_yellow_2);
-  const float norm = 1.0f / std::sqrt(sum_1 * sum_1 + sum_2 * sum_2);
+  const double sum_1 = sum_of(blue_yellow_1), sum_2 = sum_of(blue_yellow_2);
+  const double norm = 1 / std::sqrt(sum_1 * sum_1 + sum_2 * sum_2);
   scale(blue_yellow_1, norm);
   scale(blue_yellow_2, norm);
+  drop_small(luminance);
+  drop_small(red_green);
 
-  const float sigma = 0.5f * kFeatureWidth * pixels_per_degree;
+  const double sigma = 0.5 * kFeatureWidth * pixels_per_degree;
   feature_radius = int(std::ceil(kFilterSigmas * sigma));
-  for (int i = -feature_radius; i <= feature_radius; ++i) {
-    const float x = float(i), g = std::exp(-(x * x) / (2.0f * sigma * sigma));
+  for (int i = 0; i <= feature_radius; ++i) {
+    const double x = i, g = std::exp(-(x * x) / (2 * sigma * sigma));
     gaussian.push_back(g);
-    edge.push_back(-x * g);
-    point.push_back((x * x / (sigma * sigma) - 1.0f) * g);
+    edge.push_back(x * g);
+    point.push_back((x * x / (sigma * sigma) - 1) * g);
   }
-  const float sum = sum_of(gaussian);
-  for (float& tap : gaussian) tap /= sum;
-  balance(edge);
-  balance(point);
+  scale(gaussian, 1 / sum_of(gaussian));
+  // Its taps on one side are the positive ones.
+  scale(edge, 2 / sum_of(edge));
+  balance_even(point);
 }
 
 }  // namespace lobelia

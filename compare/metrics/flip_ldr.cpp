@@ -7,16 +7,18 @@
 //               after the eye's contrast filter, remapped to [0, 1]; feature: the difference in
 //               edges or points of the luminance. mean and max over all pixels.
 // Input:        DisplayLight (linear, clipped). The tool takes sRGB and decodes it first.
-// Agrees with:  NVIDIA's tool, version 1.6, built without fused multiply-add, its mean taken in
-//               double: all nine digits of mean and maximum on the pictures of the test. A double loop
-//               in double over each pixel's windows: to 4e-6 in each pixel.
-// Computed:     on SIMD registers; all instruction sets agree within 1.2e-7 (flip_kernels.cpp).
+// Agrees with:  a double loop in float64 over each pixel's windows, the paper's formulas as they stand: to 3e-7 in
+//               each pixel, also of pictures that hardly differ (flip_accuracy_test.cpp). NVIDIA's tool, version 1.6, its
+//               mean taken in double: to 1e-8 where there are features, to 1e-4 on flat pictures.
+// Computed:     on SIMD registers. Processors without fused multiply-add round twice: 2e-7. The number of threads changes
+//               nothing.
 // Differs:      the mean is summed in double; the tool's float32 sum is wrong by percents on a
 //               large picture.
 //
-// Why the error map is float32, unlike all other metrics: in a flat area the feature difference is the
-// square root of rounding noise, about 1e-4 in the tool. It moves the error by up to 5e-5. More
-// precision would remove the noise, and the agreement with it.
+// Why pictures are filtered in float64: an error is a power of the distance between two filtered colours, and the feature
+// difference a root. In float32, as in the tool, both enlarge rounding noise: in a flat area the feature difference is
+// 1e-4 instead of 0, which moves the error by up to 8e-5, and a difference of a millionth is lost. What follows the
+// differences is float32.
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/pixel_differences.hpp"
 #include "compare/metrics/shared_work.hpp"
@@ -32,7 +34,7 @@ constexpr MetricOutput kFlipLdrOutputs[] = {
 
 void measure_flip_ldr(const MetricInput& input, std::span<double> values) {
   const auto map = shared(input, "flip.ldr", [&] {
-    return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)),
+    return flip_error_map(input.shown_a, input.shown_b, FlipFilters(input.pixels_per_degree),
                           input.needed());
   });
   write_figures(*map, input, {}, values);

@@ -49,8 +49,9 @@ std::vector<Check> checks() {
 TEST(Flip, AgreesWithTheReferenceTool) {
   for (const Check& check : checks()) {
     const Comparison comparison = compare(check.test, check.reference, {});
-    EXPECT_NEAR(comparison.value("flip.ldr.mean"), check.mean, 1e-8) << check.name;
-    EXPECT_NEAR(comparison.value("flip.ldr.max"), check.max, 5e-7) << check.name;
+    // Flat pictures have no features. In the tool they have, from roots of float32's rounding: measured 3.1e-5.
+    EXPECT_NEAR(comparison.value("flip.ldr.mean"), check.mean, 5e-5) << check.name;
+    EXPECT_NEAR(comparison.value("flip.ldr.max"), check.max, 5e-5) << check.name;
   }
 }
 
@@ -68,7 +69,8 @@ TEST(Flip, AgreesWithTheReferenceToolOnAPictureOfAllColoursAndEdges) {
   };
   const Comparison comparison = compare(pattern(3), pattern(2), {});
   EXPECT_NEAR(comparison.value("flip.ldr.mean"), 0.206531537, 1e-8);
-  EXPECT_NEAR(comparison.value("flip.ldr.max"), 0.859666228, 1e-8);
+  // Measured 6e-8.
+  EXPECT_NEAR(comparison.value("flip.ldr.max"), 0.859666228, 2e-7);
 }
 
 TEST(Flip, DefaultViewerSees67PixelsPerDegree) {
@@ -91,21 +93,21 @@ TEST(Flip, SeesLessOfAFineDifferenceFromFarther) {
 TEST(Flip, FiltersKeepAFlatPictureFlatAtEveryDistance) {
   for (const double ppd :
        {kMinPixelsPerDegree, 30.0, kDefaultPixelsPerDegree, kMaxPixelsPerDegree}) {
-    const FlipFilters filters{float(ppd)};
-    const auto sum = [](const std::vector<float>& taps) {
-      double total = 0;
-      for (const float tap : taps) total += tap;
+    const FlipFilters filters(ppd);
+    const auto sum = [](const FlipTaps& taps) {
+      double total = -taps[0];
+      for (const double tap : taps) total += 2 * tap;
       return total;
     };
-    // Sums of up to 300 float32 taps.
-    EXPECT_NEAR(sum(filters.luminance), 1, 1e-5) << ppd;
-    EXPECT_NEAR(sum(filters.red_green), 1, 1e-5) << ppd;
+    // Sums of up to 300 taps, some without those below 1e-12 of the largest.
+    EXPECT_NEAR(sum(filters.luminance), 1, 1e-11) << ppd;
+    EXPECT_NEAR(sum(filters.red_green), 1, 1e-11) << ppd;
     EXPECT_NEAR(std::pow(sum(filters.blue_yellow_1), 2) + std::pow(sum(filters.blue_yellow_2), 2),
-                1, 1e-5)
+                1, 1e-12)
         << ppd;
-    EXPECT_NEAR(sum(filters.gaussian), 1, 1e-5) << ppd;
-    EXPECT_NEAR(sum(filters.edge), 0, 1e-5) << ppd;
-    EXPECT_NEAR(sum(filters.point), 0, 1e-5) << ppd;
+    EXPECT_NEAR(sum(filters.gaussian), 1, 1e-12) << ppd;
+    EXPECT_EQ(filters.edge[0], 0) << ppd;
+    EXPECT_NEAR(sum(filters.point), 0, 1e-12) << ppd;
   }
 }
 
@@ -124,7 +126,7 @@ std::vector<float> errors_of(const DisplayLight& a, const DisplayLight& b,
 TEST(Flip, ComesOutTheSameWhereverATileEnds) {
   const Image a = fixtures::noise(70, 100, 3, 1.0f), b = fixtures::noise(70, 100, 4, 1.0f);
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
-  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipFilters filters(kDefaultPixelsPerDegree);
   const std::vector<float> whole = errors_of(shown_a, shown_b, filters, {0, 0, 70, 100});
   for (const FlipTile tile : {FlipTile{0, 37, 70, 4}, FlipTile{11, 0, 33, 100},
                               FlipTile{69, 99, 1, 1}, FlipTile{5, 80, 17, 20}}) {
@@ -139,7 +141,7 @@ TEST(Flip, ComesOutTheSameWhereverATileEnds) {
 
 TEST(Flip, OfPicturesThatDifferInAPartAgreesWithADoubleLoopAroundItAndIsZeroBeyond) {
   constexpr int kWidth = 261, kHeight = 90;
-  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipFilters filters(kDefaultPixelsPerDegree);
   const Image a = fixtures::noise(kWidth, kHeight, 5, 1.3f),
               other = fixtures::noise(kWidth, kHeight, 6, 1.2f);
   for (const FlipTile part :
@@ -149,11 +151,11 @@ TEST(Flip, OfPicturesThatDifferInAPartAgreesWithADoubleLoopAroundItAndIsZeroBeyo
       for (int x = part.left; x < part.left + part.width; ++x)
         std::ranges::copy(other.pixel(x, y), b.pixel(x, y).begin());
     const DisplayLight shown_a(a, 0), shown_b(b, 0);
-    const std::vector<double> plain = fixtures::plain_flip(shown_a, shown_b, filters);
+    const std::vector<double> plain =
+        fixtures::plain_flip(shown_a, shown_b, kDefaultPixelsPerDegree);
     const PixelValues errors = flip_error_map(shown_a, shown_b, filters);
     for (std::size_t i = 0; i < plain.size(); ++i) {
-      // Where little differs, powers and roots of rounding noise count (flip_ldr.cpp).
-      ASSERT_NEAR(errors[i], plain[i], 1e-4) << i;
+      ASSERT_NEAR(errors[i], plain[i], 1e-6) << i;
       if (plain[i] == 0) {
         ASSERT_EQ(errors[i], 0) << i;
       }
@@ -165,13 +167,14 @@ TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
   // Widths around the padding, and beyond one tile both ways.
   constexpr std::pair<int, int> kSizes[] = {{1, 1},  {2, 3},   {1, 37},  {15, 4},
                                             {16, 5}, {17, 11}, {33, 29}, {261, 258}};
-  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipFilters filters(kDefaultPixelsPerDegree);
   for (const auto& [width, height] : kSizes)
     for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
       const Image a = fixtures::noise(width, height, 5, 1.3f),
                   b = fixtures::noise(width, height, 6, 1.2f);
       const DisplayLight shown_a(a, -0.5, curve), shown_b(b, -0.5, curve);
-      const std::vector<double> plain = fixtures::plain_flip(shown_a, shown_b, filters);
+      const std::vector<double> plain =
+          fixtures::plain_flip(shown_a, shown_b, kDefaultPixelsPerDegree);
       const std::vector<float> errors = errors_of(shown_a, shown_b, filters, {0, 0, width, height});
       double largest = 0, mean = 0, max = 0;
       for (std::size_t i = 0; i < plain.size(); ++i) {
@@ -179,14 +182,13 @@ TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
         mean += plain[i] / double(plain.size());
         max = std::max(max, plain[i]);
       }
-      // float32 against double: some roundings of numbers near 1.
-      EXPECT_LT(largest, 4e-6) << width << " x " << height;
+      EXPECT_LT(largest, 1e-6) << width << " x " << height;
       if (curve != ToneCurve::kClip) continue;
       ComparisonOptions options;
       options.viewing.exposure_stops = -0.5;
       const Comparison comparison = compare(a, b, options);
-      EXPECT_NEAR(comparison.value("flip.ldr.mean"), mean, 4e-6) << width << " x " << height;
-      EXPECT_NEAR(comparison.value("flip.ldr.max"), max, 4e-6) << width << " x " << height;
+      EXPECT_NEAR(comparison.value("flip.ldr.mean"), mean, 1e-6) << width << " x " << height;
+      EXPECT_NEAR(comparison.value("flip.ldr.max"), max, 1e-6) << width << " x " << height;
     }
 }
 
@@ -195,7 +197,7 @@ constexpr ToneCurve kCurves[] = {ToneCurve::kClip, ToneCurve::kAces, ToneCurve::
 
 TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
   const Image a = fixtures::noise(261, 40, 5, 1.3f), b = fixtures::highlight(261, 40, 20, 1.2);
-  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipFilters filters(kDefaultPixelsPerDegree);
   const FlipTile whole{0, 0, 261, 40};
   for (const ToneCurve curve : kCurves) {
     const DisplayLight shown_a(a, 0.3, curve), shown_b(b, 0.3, curve);
@@ -204,9 +206,9 @@ TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
       hwy::SetSupportedTargetsForTest(target);
       const std::vector<float> errors = errors_of(shown_a, shown_b, filters, whole);
       hwy::SetSupportedTargetsForTest(0);
-      // A power, rounded from double, may come out as the float beside it.
+      // Without fused multiply-add some roundings differ: measured 1.8e-7.
       for (std::size_t i = 0; i < errors.size(); ++i)
-        ASSERT_NEAR(errors[i], widest[i], 1.2e-7) << hwy::TargetName(target) << ", pixel " << i;
+        ASSERT_NEAR(errors[i], widest[i], 5e-7) << hwy::TargetName(target) << ", pixel " << i;
     }
   }
 }
@@ -221,11 +223,13 @@ TEST(HdrFlip, AgreesWithTheReferenceToolOnConstants) {
   EXPECT_EQ(automatic.count, 2);
   options.viewing.hdr_exposures = automatic;
   const Comparison comparison = compare(picture, reference, options);
-  EXPECT_NEAR(comparison.value("flip.hdr.mean"), 0.14483313, 1e-8);
-  EXPECT_NEAR(comparison.value("flip.hdr.max"), 0.14483313, 1e-8);
-  // The same range in the seven digits that are printed: off by 3.1e-7, as a root is taken of noise.
+  // As for LDR-FLIP, the tool's features of flat pictures are roundings: measured 8.1e-5.
+  EXPECT_NEAR(comparison.value("flip.hdr.mean"), 0.14483313, 1e-4);
+  EXPECT_NEAR(comparison.value("flip.hdr.max"), 0.14483313, 1e-4);
+  // The same range in the seven digits that are printed.
   options.viewing.hdr_exposures = HdrExposures{3.083297, 3.083297, 2};
-  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), 0.14483313, 1e-6);
+  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"),
+              comparison.value("flip.hdr.mean"), 5e-7);
 }
 
 TEST(HdrFlip, AgreesWithTheReferenceToolOnARamp) {
@@ -242,7 +246,8 @@ TEST(HdrFlip, AgreesWithTheReferenceToolOnARamp) {
   EXPECT_NEAR(options.viewing.hdr_exposures->start_stops, -5.916703, 5e-7);
   EXPECT_NEAR(options.viewing.hdr_exposures->stop_stops, 1.083297, 5e-7);
   EXPECT_EQ(options.viewing.hdr_exposures->count, 7);
-  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), 0.21011607, 1e-8);
+  // Measured 2.4e-7.
+  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), 0.21011607, 5e-7);
   // The other curves, in the digits that the tool prints; its sum is in float32.
   for (const auto& [curve, start, mean] : {std::tuple(ToneCurve::kReinhard, -4.4975, 0.167316),
                                            {ToneCurve::kHable, -5.3549, 0.181528}}) {
@@ -346,7 +351,7 @@ TEST(HdrFlipMaps, HaveTheLargestErrorOfAllExposuresAndTheFirstExposureThatHasIt)
     return measure_difference_map(*find_difference_map(id), a, b, viewing);
   };
   const PixelValues errors = map("flip.hdr"), stops = map("flip.hdr.exposure");
-  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipFilters filters(kDefaultPixelsPerDegree);
   PixelValues largest(a.pixel_count(), 0.0f), where(a.pixel_count(), -4.0f);
   for (const float stop : {-4.0f, -2.0f, 0.0f, 2.0f}) {
     const PixelValues one =
