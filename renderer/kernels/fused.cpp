@@ -66,13 +66,19 @@ void trace_rays(const FusedRow& row, int begin, int count, Stretch& stretch) {
   const Lanes3 forward = broadcast(row.forward), right = broadcast(row.right);
   const Lanes3 v_up = broadcast(row.v_up);
   const double* columns = row.columns + begin;
-  const Starts floats;
-  for (int i = 0; i < count; i += int(Lanes::count())) {
+  const int lanes = int(Lanes::count());
+  const auto squared_at = [&](int i) LOBELIA_INLINE {
     const Lanes3 along = add_scaled(Lanes::load(columns + i), right, forward) + v_up;
-    const Lanes squared = dot(along, along);
-    stretch.s.store(i, squared);
-    hn::StoreU(start_of_inverse_sqrt(squared), floats, stretch.s32 + i);
+    return dot(along, along).v;
+  };
+  // Two registers of doubles make one of floats, of which a root takes no longer than of half of it.
+  for (int i = 0; i < count; i += 2 * lanes) {
+    const Lanes low(squared_at(i)), high(squared_at(i + lanes));
+    stretch.s.store(i, low);
+    stretch.s.store(i + lanes, high);
+    starts_of_inverse_sqrt(low, high).store(stretch.s32 + i);
   }
+  const Starts floats;
   for (int i = 0; i < count; i += int(Lanes::count())) {
     const Lanes3 along = add_scaled(Lanes::load(columns + i), right, forward) + v_up;
     const Lanes scale = refine_inverse_sqrt(stretch.s.load(i), hn::LoadU(floats, stretch.s32 + i));

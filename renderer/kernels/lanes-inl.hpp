@@ -148,6 +148,10 @@ using Starts = hn::Rebind<float, hn::ScalableTag<double>>;
 HWY_INLINE hn::Vec<Starts> start_of_inverse_sqrt(Lanes a) {
   return hn::Div(hn::Set(Starts(), 1.0f), hn::Sqrt(hn::DemoteTo(Starts(), a.v)));
 }
+/// The same of two registers.
+HWY_INLINE Lanes32 starts_of_inverse_sqrt(Lanes low, Lanes high) {
+  return Lanes32(1.0f) / sqrt(narrow(low, high));
+}
 HWY_INLINE Lanes refine_inverse_sqrt(Lanes a, hn::Vec<Starts> start) {
   const hn::ScalableTag<double> d;
   const auto y = hn::PromoteTo(d, start);
