@@ -10,6 +10,7 @@
 #include <ranges>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "records/farm.hpp"
@@ -107,6 +108,8 @@ void Publisher::add_to_list(const std::string& name) {
 }
 
 void Publisher::write(const std::string& name, std::string_view content) {
+  // What was made meanwhile may be a part only.
+  throw_if_interrupted();
   add_to_list(name);
   if (is_same_text(site_ / name, content)) return;
   place(site_, name, [&](const fs::path& part) {

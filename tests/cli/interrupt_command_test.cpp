@@ -174,7 +174,7 @@ TEST_F(Interrupted, ComparisonOfTwoFilesEndsAndLeavesNothing) {
 TEST_F(Interrupted, ComparisonOfFoldersEndsAndLeavesNothing) {
   for (int i = 0; i < 12; ++i)
     for (const char* folder : {"a/", "b/"})
-      noisy_picture(folder + std::to_string(i) + ".exr", 256, 256, unsigned(i));
+      noisy_picture(folder + std::to_string(i) + ".exr", 600, 600, unsigned(i));
   expect_ended_by_signals({"compare", "a", "b", "--exposures", "-10,10,100", "--json", "out/r.json",
                            "--csv", "out/r.csv", "--diff-image", "out/maps"},
                           0.02);
