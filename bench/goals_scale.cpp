@@ -83,8 +83,9 @@ void add_scale_goals(const Tools& tools, Goals& goals) {
                return Round{result.seconds, cells / 15000.0};
              }});
   const int processors = oneapi::tbb::info::default_concurrency();
-  goals.add({"scale.own_cost", fmt::format("a farm of {} tiny cells: own time a result", kTinyCells),
-             "s", "1 ms", false, 1, 3, 1, [=, farms = 0]() mutable {
+  goals.add({"scale.own_cost",
+             fmt::format("a farm of {} tiny cells: own time a result", kTinyCells), "s", "1 ms",
+             false, 1, 3, 1, [=, farms = 0]() mutable {
                const fs::path out = tools.scratch / fmt::format("tiny_{}", ++farms);
                const ProcessResult farm = tiny_farm(tools, out);
                // The formulas integrate a coefficient to 50 digits for each cell, which is no cost of the farm. A cell has

@@ -19,6 +19,7 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <thread>
 
 #include "core/descriptor.hpp"
 #include "core/error.hpp"
@@ -29,6 +30,7 @@
 #include "core/plain_picture.hpp"
 #include "core/png_module.hpp"
 #include "core/reading_limits.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace {
@@ -45,6 +47,12 @@ std::uint64_t address_space() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * std::uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+/// Whether there may be a thread for each processor: oneTBB gives up where one cannot be started.
+bool can_start_threads() {
+  const int more = int(std::thread::hardware_concurrency()) - 1;
+  return startable_threads(more) >= more;
 }
 
 struct Job {
@@ -152,7 +160,8 @@ ReadingAnswer decode(const ImageIoTable* table, const Job& job, std::string_view
                     .bytes = bytes,
                     .format = request.format,
                     .base_only = request.base_only,
-                    .on_one_thread = request.on_one_thread || bytes.size() < kManyThreadsBytes};
+                    .on_one_thread = request.on_one_thread || bytes.size() < kManyThreadsBytes ||
+                                     !can_start_threads()};
   if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
   if (!may_leave_memory_uninitialised(request.format))
     file.on_rows = [&](const Picture& band, int) {

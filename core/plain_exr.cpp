@@ -6,8 +6,10 @@
 
 #include <atomic>
 #include <cstring>
+#include <utility>
 
 #include "core/plain_picture.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace {
@@ -17,7 +19,8 @@ const std::vector<std::string> kPlainChannels[] = {
     {"R", "G", "B"}, {"R", "G", "B", "A"}, {"Y"}, {"Y", "A"}};
 
 /// Attributes by which OpenImageIO would find other layers, or another window.
-constexpr std::string_view kNotPlain[] = {"view", "multiView", "envmap", "textureformat"};
+constexpr std::string_view kNotPlain[] = {"view", "multiview", "envmap", "textureformat",
+                                          "oiio:subimagename"};
 
 std::int64_t read_bytes(exr_const_context_t context, void* bytes, void* to, std::uint64_t count,
                         std::uint64_t offset, exr_stream_error_func_ptr_t) {
@@ -29,12 +32,19 @@ std::int64_t read_bytes(exr_const_context_t context, void* bytes, void* to, std:
   return std::int64_t(n);
 }
 
-/// What ZIP is in an EXR: see zipped() in exr_writer.cpp.
-exr_result_t unzip(exr_decode_pipeline_t* pipeline) {
+using Decompress = decltype(exr_decode_pipeline_t::decompress_fn);
+
+struct Unzip {
+  std::vector<std::uint8_t> steps;  ///< memory that is used again
+  Decompress by_zlib = nullptr;
+};
+
+/// What ZIP is in an EXR: see zipped() in exr_writer.cpp. What ISA-L refuses is zlib's to judge.
+exr_result_t unzip(exr_decode_pipeline_t* pipeline) try {
   const exr_chunk_info_t& chunk = pipeline->chunk;
   const std::size_t size = chunk.unpacked_size;
   if (chunk.packed_size == size) return EXR_ERR_SUCCESS;  // stored
-  auto& steps = *static_cast<std::vector<std::uint8_t>*>(pipeline->decoding_user_data);
+  auto& [steps, by_zlib] = *static_cast<Unzip*>(pipeline->decoding_user_data);
   steps.resize(size);
   inflate_state state;
   isal_inflate_init(&state);
@@ -44,7 +54,7 @@ exr_result_t unzip(exr_decode_pipeline_t* pipeline) {
   state.next_out = steps.data();
   state.avail_out = std::uint32_t(size);
   if (isal_inflate_stateless(&state) != ISAL_DECOMP_OK || state.total_out != size)
-    return EXR_ERR_CORRUPT_CHUNK;
+    return by_zlib(pipeline);
   // Each byte is the sum of the steps up to it, less 128 each but the first. Even bytes are in the first half.
   const std::size_t half = (size + 1) / 2;
   std::uint8_t even = 128, odd = even;
@@ -57,14 +67,20 @@ exr_result_t unzip(exr_decode_pipeline_t* pipeline) {
   }
   if (size % 2 == 1) *to = std::uint8_t(even + first[half - 1] - 128);
   return EXR_ERR_SUCCESS;
+} catch (const std::bad_alloc&) {
+  return EXR_ERR_OUT_OF_MEMORY;
 }
 
-/// Whether the block is complete, and its row and its length before it are right. OpenEXR's core 3.1 does not look.
-bool is_block_of(const exr_chunk_info_t& chunk, std::string_view file, int y) {
-  return chunk.data_offset >= 8 && chunk.data_offset <= file.size() &&
+/// Finds the block of row y. False unless it is complete, and its row and its length before it are right: OpenEXR's core
+/// 3.1 does not look.
+bool find_block(exr_const_context_t context, std::string_view file, int y,
+                exr_chunk_info_t& chunk) {
+  return ::exr_read_scanline_chunk_info(context, 0, y, &chunk) == EXR_ERR_SUCCESS &&
+         chunk.data_offset >= 8 && chunk.data_offset <= file.size() &&
          chunk.packed_size <= file.size() - chunk.data_offset &&
          std::int32_t(number_at(file, chunk.data_offset - 8, true)) == y &&
          number_at(file, chunk.data_offset - 4, true) == chunk.packed_size &&
+         chunk.packed_size <= chunk.unpacked_size &&
          (chunk.compression != EXR_COMPRESSION_NONE || chunk.packed_size == chunk.unpacked_size);
 }
 
@@ -82,9 +98,7 @@ class BlockDecoder {
   bool decode(exr_const_context_t context, std::string_view file, bool is_zip, int y,
               std::span<const std::pair<std::string, float*>> channels, int width) {
     exr_chunk_info_t chunk;
-    if (::exr_read_scanline_chunk_info(context, 0, y, &chunk) != EXR_ERR_SUCCESS ||
-        !is_block_of(chunk, file, y))
-      return false;
+    if (!find_block(context, file, y, chunk)) return false;
     if ((context_ ? ::exr_decoding_update(context, 0, &chunk, &pipeline_)
                   : ::exr_decoding_initialize(context, 0, &chunk, &pipeline_)) != EXR_ERR_SUCCESS)
       return false;
@@ -104,8 +118,8 @@ class BlockDecoder {
     if (is_first) {
       if (::exr_decoding_choose_default_routines(context, 0, &pipeline_) != EXR_ERR_SUCCESS)
         return false;
-      if (is_zip) pipeline_.decompress_fn = unzip;
-      pipeline_.decoding_user_data = &steps_;
+      if (is_zip) unzip_.by_zlib = std::exchange(pipeline_.decompress_fn, unzip);
+      pipeline_.decoding_user_data = &unzip_;
     }
     return ::exr_decoding_run(context, 0, &pipeline_) == EXR_ERR_SUCCESS;
   }
@@ -113,7 +127,7 @@ class BlockDecoder {
  private:
   exr_decode_pipeline_t pipeline_ = EXR_DECODE_PIPELINE_INITIALIZER;
   exr_const_context_t context_ = nullptr;
-  std::vector<std::uint8_t> steps_;
+  Unzip unzip_;
 };
 
 class PlainExr : public PlainFile {
@@ -144,7 +158,7 @@ class PlainExr : public PlainFile {
            storage == EXR_STORAGE_SCANLINE &&
            ::exr_get_lineorder(context_, 0, &order) == EXR_ERR_SUCCESS &&
            order != EXR_LINEORDER_RANDOM_Y && take_packing() && take_windows() && take_channels() &&
-           take_attributes();
+           take_attributes() && has_all_blocks();
   }
 
   ColourMeaning meaning(const std::filesystem::path&) const override {
@@ -193,6 +207,13 @@ class PlainExr : public PlainFile {
     return is_zip_ || packing == EXR_COMPRESSION_NONE || packing == EXR_COMPRESSION_RLE ||
            packing == EXR_COMPRESSION_PIZ;
   }
+  /// Looked at first, because a band that was handed on cannot be left to OpenImageIO any more.
+  bool has_all_blocks() const {
+    exr_chunk_info_t chunk;
+    for (int y = 0; y < window.height; y += band_rows)
+      if (!find_block(context_, bytes_, window.y + y, chunk)) return false;
+    return true;
+  }
   bool take_windows() {
     exr_attr_box2i_t data, display;
     if (::exr_get_data_window(context_, 0, &data) != EXR_ERR_SUCCESS ||
@@ -240,7 +261,8 @@ class PlainExr : public PlainFile {
           EXR_ERR_SUCCESS)
         return false;
       const std::string_view name = found->name;
-      if (std::ranges::count(kNotPlain, name) > 0) return false;
+      // OpenImageIO finds them in any case of letters.
+      if (std::ranges::count(kNotPlain, lower_case(name)) > 0) return false;
       const bool is_text = found->type == EXR_ATTR_STRING;
       const std::string text =
           is_text ? std::string(found->string->str, std::size_t(found->string->length)) : "";

@@ -31,6 +31,10 @@ class PlainPng : public PlainFile {
       : context_(::spng_ctx_new(0)),
         colour_(png_colour(bytes)),
         types_are_right_(has_types_of_letters(bytes)) {
+    if (!context_) throw std::bad_alloc();
+    // Texts are unpacked, and a few bytes can unpack to gigabytes.
+    constexpr std::size_t kMostText = std::size_t{1} << 20, kMostOfAll = std::size_t{16} << 20;
+    ::spng_set_chunk_limits(context_.get(), kMostText, kMostOfAll);
     ::spng_set_image_limits(context_.get(), std::uint32_t(most_side), std::uint32_t(most_side));
     ::spng_set_png_buffer(context_.get(), bytes.data(), bytes.size());
   }
@@ -129,6 +133,7 @@ class SpngEncoder : public PngEncoder {
   SpngEncoder(int width, int height, const ImageMetadata& metadata)
       : context_(::spng_ctx_new(SPNG_CTX_ENCODER)),
         row_bytes_(std::size_t(3) * std::size_t(width)) {
+    if (!context_) throw std::bad_alloc();
     spng_ctx* const png = context_.get();
     spng_ihdr header{};
     header.width = std::uint32_t(width);
@@ -140,6 +145,7 @@ class SpngEncoder : public PngEncoder {
     check(::spng_set_srgb(png, 0));  // perceptual
     std::vector<spng_text> texts;
     for (const auto& [name, value] : metadata) {
+      if (value.empty()) continue;  // libspng refuses it
       spng_text& text = texts.emplace_back();
       name.copy(text.keyword, sizeof text.keyword - 1);
       text.type = is_ascii(value) ? SPNG_TEXT : SPNG_ITXT;  // Latin-1, UTF-8
@@ -155,28 +161,35 @@ class SpngEncoder : public PngEncoder {
     for (int y = 0; y < rows.height; ++y) {
       const int result = ::spng_encode_row(
           context_.get(), rows.rgb.data() + row_bytes_ * std::size_t(y), row_bytes_);
-      if (result != SPNG_EOI) check(result);  // the last row ends the file
+      is_complete_ = result == SPNG_EOI;  // the last row ends the file
+      if (!is_complete_) check(result);
     }
     return std::exchange(bytes_, {});
   }
-  std::vector<std::uint8_t> finish() override { return std::exchange(bytes_, {}); }
+  std::vector<std::uint8_t> finish() override {
+    if (!is_complete_) throw Error(ExitCode::kInternal, "PNG: rows are missing");
+    return std::exchange(bytes_, {});
+  }
 
  private:
-  static int take(spng_ctx*, void* self, void* bytes, std::size_t size) {
+  static int take(spng_ctx*, void* self, void* bytes, std::size_t size) try {
     auto& taken = static_cast<SpngEncoder*>(self)->bytes_;
     const auto* const begin = static_cast<const std::uint8_t*>(bytes);
     taken.insert(taken.end(), begin, begin + size);
     return 0;
+  } catch (const std::bad_alloc&) {
+    return SPNG_EMEM;
   }
   static void check(int result) {
+    if (result == SPNG_EMEM || result == SPNG_EZLIB_INIT) throw std::bad_alloc();
     if (result != 0)
-      throw Error(ExitCode::kInternal,
-                  fmt::format("cannot encode png: {}", ::spng_strerror(result)));
+      throw Error(ExitCode::kOutput, fmt::format("cannot encode png: {}", ::spng_strerror(result)));
   }
 
   std::vector<std::uint8_t> bytes_;
   PngContext context_;
   std::size_t row_bytes_;
+  bool is_complete_ = false;
 };
 
 std::unique_ptr<PlainFile> open_plain_png(const PictureBytes& file) {

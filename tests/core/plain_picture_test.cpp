@@ -4,6 +4,7 @@
 #include <ImfCompression.h>
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
+#include <zlib.h>
 
 #include <cstring>
 #include <limits>
@@ -199,6 +200,21 @@ TEST_F(PlainPicture, IsWhatThisProgramWrites) {
       are_same_values(plain->image, image_io_table().read_picture(bytes_of(png, "png"), "").image));
 }
 
+TEST_F(PlainPicture, WithoutABlockFarBelowIsLeftToOpenImageIoBeforeAnyBandIsGivenOn) {
+  const Image image(2100, 2060);
+  const auto path = directory_.path() / "large.exr";
+  write_exr(path, image, {});
+  std::string bytes = read_file(path, 1 << 28);
+  // The table of offsets, one for 16 rows, follows the header's last attribute.
+  const std::size_t table = bytes.find("screenWindowWidth") + 18 + 6 + 4 + 4 + 1;
+  bytes.replace(table + 8 * 128, 8, std::string(8, '\0'));
+  PictureBytes file = bytes_of(bytes, "openexr");
+  int bands = 0;
+  file.on_rows = [&](const Picture&, int) { ++bands; };
+  EXPECT_FALSE(read_plain_picture(file, ""));
+  EXPECT_EQ(bands, 0);
+}
+
 TEST_F(PlainPicture, LeavesAllElseToOpenImageIo) {
   const auto all = window(0, 0, 2, 1), part = window(0, 0, 1, 1);
   const std::vector<ExrChannel> rgb{{"R", {1, 2}}, {"G", {3, 4}}, {"B", {5, 6}}};
@@ -214,6 +230,7 @@ TEST_F(PlainPicture, LeavesAllElseToOpenImageIo) {
       {{.data = all, .display = all, .channels = {{"diffuse.R", {1, 2}}}}},
       {{.data = all, .display = all, .channels = {{"Y", {1, 2}, Imf::UINT}}}},
       {{.data = all, .display = all, .channels = rgb, .texts = {{"view", "left"}}}},
+      {{.data = all, .display = all, .channels = rgb, .texts = {{"View", "left"}}}},
       {{.name = "a", .data = all, .display = all, .channels = rgb},
        {.name = "b", .data = part, .display = all, .channels = {{"Y", {1}}}}}};
   for (const auto& parts : files) {
@@ -230,6 +247,18 @@ TEST_F(PlainPicture, LeavesAllElseToOpenImageIo) {
         Png{.samples = "abc", .chunks = png_chunk("iCCP", "damaged")}})
     EXPECT_FALSE(read_plain_picture(bytes_of(png_file(png), "png"), ""));
   EXPECT_FALSE(may_be_plain("jpeg"));
+  // A text that unpacks to a thousand times its size.
+  const std::string zeros(std::size_t{8} << 20, '\0');
+  uLongf size = compressBound(uLong(zeros.size()));
+  std::string packed(size, '\0');
+  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                     reinterpret_cast<const Bytef*>(zeros.data()), uLong(zeros.size())),
+            Z_OK);
+  const std::string text = png_chunk("zTXt", std::string("a\0\0", 3) + packed.substr(0, size));
+  const std::string bomb = png_file({.samples = "abc", .chunks = text});
+  EXPECT_FALSE(read_plain_picture(bytes_of(bomb, "png"), ""));
+  EXPECT_FALSE(png_table().read_codes(bomb, 4096));
+  EXPECT_EQ(read_image(file("bomb.png", bomb)).width(), 1) << "by OpenImageIO";
 }
 
 TEST(PngCodes, AreReadFromWhatThisProgramWritesAndFromNothingThatIsDamaged) {
