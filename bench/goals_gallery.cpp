@@ -15,7 +15,10 @@ Round figure_in(const std::string& output, const std::string& name) {
   std::smatch found;
   if (!std::regex_search(output, found, std::regex("\n" + name + R"( +([0-9.]+) \S* +([0-9.]+) )")))
     throw std::runtime_error("bench/gallery.sh tells no '" + name + "': " + output);
-  return {std::stod(found[1]), std::stod(found[2])};
+  const Round round{std::stod(found[1]), std::stod(found[2])};
+  // The browser's processes may be gone before their memory is looked at.
+  if (round.ours <= 0) throw std::runtime_error("bench/gallery.sh could not measure " + name);
+  return round;
 }
 
 }  // namespace

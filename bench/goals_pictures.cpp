@@ -212,10 +212,14 @@ void add_thread_goals(const Tools&, Goals& goals) {
     const auto scene = std::make_shared<Scene>(head_on("cosine", side));
     // Every pixel of the disc is computed.
     scene->materials[0].diffuse_reflectance = {0.5, 0.5, 0.5};
+    // The least of three, as a thread that sleeps may begin milliseconds late.
     const auto seconds = [scene](int threads) {
       RenderOptions options;
       options.threads = threads;
-      return render(*scene, options).render_seconds;
+      double least = 1e9;
+      for (int run = 0; run < 3; ++run)
+        least = std::min(least, render(*scene, options).render_seconds);
+      return least;
     };
     // Untimed: pictures that come after other goals pay for memory and threads that the next ones find.
     const auto warm_up = [=] {
@@ -233,8 +237,14 @@ void add_thread_goals(const Tools&, Goals& goals) {
                "they write new memory, then wait", true, 0.93, 15, 7, [=] {
                  warm_up();
                  const double one = seconds(1), ours = seconds(processors);
-                 const double waits = std::max(0.0, one - limit_seconds(side, 0, 1));
-                 return Round{ours, limit_seconds(side, waits, processors)};
+                 const auto limit = [&](double waits, int threads) {
+                   double least = 1e9;
+                   for (int run = 0; run < 3; ++run)
+                     least = std::min(least, limit_seconds(side, waits, threads));
+                   return least;
+                 };
+                 const double waits = std::max(0.0, one - limit(0, 1));
+                 return Round{ours, limit(waits, processors)};
                }});
     add_simulated_goal(goals, scene);
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -23,9 +24,14 @@ constexpr int kCrowdSide = 256, kTinyCells = 1000;
 double render_seconds(const Scene& scene) {
   Scene twice = scene;
   twice.sampler.sample_count = 1;
-  const double one = render(twice, {}).render_seconds;
+  const auto least = [](const Scene& of) {
+    double seconds = 1e9;
+    for (int run = 0; run < 3; ++run) seconds = std::min(seconds, render(of, {}).render_seconds);
+    return seconds;
+  };
+  const double one = least(twice);
   twice.sampler.sample_count = 5;
-  return (render(twice, {}).render_seconds - one) / 4;
+  return (least(twice) - one) / 4;
 }
 
 /// A farm of a thousand tiny cells into a new directory, from nothing.
@@ -77,7 +83,11 @@ void add_scale_goals(const Tools& tools, Goals& goals) {
   goals.add({"scale.plan", fmt::format("lobelia farm --dry-run of {} cells", cells), "s",
              fmt::format("{:g} s", cells / 15000.0), false, 1, 3, 3, [=] {
                const fs::path grid = tools.scratch / "large.xml";
-               write_file(grid, grid_of_models(cells / 10));
+               // No axis has more than 10000 values.
+               const bool halved = cells > 100000;
+               write_file(grid,
+                          grid_of_models(cells / (halved ? 20 : 10),
+                                         halved ? "<axis name=\"size\" values=\"64, 96\"/>" : ""));
                const ProcessResult result =
                    run({program, "farm", grid, "--dry-run", "-q", "-o", tools.scratch / "plan"});
                return Round{result.seconds, cells / 15000.0};
