@@ -52,9 +52,7 @@ class OneThread {
     hwy::SetSupportedTargetsForTest(0);
   }
   double seconds() {
-    const auto render = [&] { renderer_->render_rows(0, kSide, image_.values().data()); };
-    render();  // Untimed: other goals leave other things in the caches.
-    return seconds_of(render);
+    return warm_seconds([&] { renderer_->render_rows(0, kSide, image_.values().data()); });
   }
 
  private:
@@ -216,10 +214,7 @@ void add_thread_goals(const Tools&, Goals& goals) {
     const auto seconds = [scene](int threads) {
       RenderOptions options;
       options.threads = threads;
-      double least = 1e9;
-      for (int run = 0; run < 3; ++run)
-        least = std::min(least, render(*scene, options).render_seconds);
-      return least;
+      return least_seconds(3, [&] { return render(*scene, options).render_seconds; });
     };
     // Untimed: pictures that come after other goals pay for memory and threads that the next ones find.
     const auto warm_up = [=] {
@@ -238,10 +233,7 @@ void add_thread_goals(const Tools&, Goals& goals) {
                  warm_up();
                  const double one = seconds(1), ours = seconds(processors);
                  const auto limit = [&](double waits, int threads) {
-                   double least = 1e9;
-                   for (int run = 0; run < 3; ++run)
-                     least = std::min(least, limit_seconds(side, waits, threads));
-                   return least;
+                   return least_seconds(3, [&] { return limit_seconds(side, waits, threads); });
                  };
                  const double waits = std::max(0.0, one - limit(0, 1));
                  return Round{ours, limit(waits, processors)};

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "bench/goals.hpp"
 #include "bench/inputs.hpp"
 #include "core/files.hpp"
+#include "core/timing.hpp"
 #include "records/record.hpp"
 #include "records/render.hpp"
 #include "renderer/render.hpp"
@@ -25,9 +25,7 @@ double render_seconds(const Scene& scene) {
   Scene twice = scene;
   twice.sampler.sample_count = 1;
   const auto least = [](const Scene& of) {
-    double seconds = 1e9;
-    for (int run = 0; run < 3; ++run) seconds = std::min(seconds, render(of, {}).render_seconds);
-    return seconds;
+    return least_seconds(3, [&] { return render(of, {}).render_seconds; });
   };
   const double one = least(twice);
   twice.sampler.sample_count = 5;

@@ -48,17 +48,6 @@ HandWritten::HandWritten(Set set, int side) : set_(set), rgb_(std::size_t(3) * s
                       rgb_[i], truth.values()[i], i / 3));
 }
 
-namespace {
-
-/// As the renderer's: the second of two runs.
-template <class Work>
-double warm_seconds(const Work& work) {
-  work();
-  return seconds_of(work);
-}
-
-}  // namespace
-
 double HandWritten::seconds() {
   return warm_seconds(
       [&] { set_ == Set::kAvx2 ? avx2::render(picture_) : avx512::render(picture_); });

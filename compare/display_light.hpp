@@ -46,7 +46,7 @@ class DisplayLight {
   int width() const { return image_->width(); }
   int height() const { return image_->height(); }
   std::size_t pixel_count() const { return image_->pixel_count(); }
-  /// Of pixels that are equal in it, the light is equal.
+  /// The picture it shows. Pixels that are equal there have equal light.
   const Image& image() const { return *image_; }
   /// R, G and B of rgb.size() / 3 pixels of row y, from column `first` on, in float32. kClip computes in double and
   /// rounds. The other curves have the FLIP tool's order of operations; values with an infinite square are white.

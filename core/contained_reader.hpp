@@ -1,8 +1,9 @@
 // Reads pictures from untrusted files, in processes that can do no harm (docs/decisions/0017).
 //
 // The program opens the file and recognises its format. A second program, lobelia_picture_reader, forks for each picture.
-// It loads OpenImageIO for the first that is not plain (core/plain_picture.hpp). The child gets the open file, limits, and only the system calls that it needs
-// (core/reading_limits.hpp). It decodes, answers through a pipe and ends. A hostile file harms nothing but this child.
+// It loads OpenImageIO for the first that is not plain (core/plain_picture.hpp). The child gets the open file, limits, and
+// only the system calls that it needs (core/reading_limits.hpp). It decodes, answers through a pipe and ends. A hostile
+// file harms nothing but this child.
 #pragma once
 
 #include <filesystem>

@@ -218,7 +218,7 @@ bool is_unassociated(const OIIO::ImageSpec& spec, std::string_view format) {
   return format == "png" || spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
 }
 
-/// What a profile says precedes the rest.
+/// With an ICC profile, which replaces the curve and the primaries.
 struct ProfiledMeaning : ColourMeaning {
   std::optional<IccProfile> profile = {};
 };
@@ -337,10 +337,8 @@ bool has_plain_rows(const OIIO::ImageSpec& spec, const PictureSource& source) {
 
 void read_in_bands(const Reader& whole, const PictureLayer& layer, const ProfiledMeaning& meaning,
                    const PictureBytes& file, const PictureSource& source) {
-  constexpr int kBandPixels = 2 << 20;
   constexpr int kBlock = 32;  // rows that an EXR may pack together
-  const int height = whole.spec.height;
-  const int rows = std::max(kBlock, kBandPixels / whole.spec.width / kBlock * kBlock);
+  const int height = whole.spec.height, rows = rows_of_band(whole.spec.width, kBlock);
   for (int y = 0; y < height; y += rows) {
     Reader reader = whole;
     reader.first_row = y;
@@ -397,10 +395,7 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
 }
 
 std::vector<std::string> list_layers(const PictureBytes& file) {
-  std::vector<std::string> names;
-  for (const PictureLayer& layer : picture_layers(parts_of(file, *open(file))))
-    names.push_back(layer.name);
-  return names;
+  return picture_layer_names(parts_of(file, *open(file)));
 }
 
 ColourTable table_of_colours(std::string_view name) {

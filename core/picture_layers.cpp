@@ -245,6 +245,12 @@ std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts) {
   return result;
 }
 
+std::vector<std::string> picture_layer_names(std::span<const PicturePart> parts) {
+  std::vector<std::string> names;
+  for (PictureLayer& layer : picture_layers(parts)) names.push_back(std::move(layer.name));
+  return names;
+}
+
 PictureLayer find_layer(const std::string& where, std::span<const PicturePart> parts,
                         const std::string& name) {
   const std::vector<PictureLayer> layers = picture_layers(parts);

@@ -34,6 +34,9 @@ struct PictureLayer {
 /// All layers, with unique names: the picture if there is one, then in the file's order.
 std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts);
 
+/// Their names, in that order.
+std::vector<std::string> picture_layer_names(std::span<const PicturePart> parts);
+
 /// Finds a layer by its name, or by that of a channel, of a part (its colours, or its only layer), or by what people call it
 /// (core/layer_names.hpp). "" is the picture: R, G, B without a prefix, else Y without a prefix, else the only layer of
 /// colours, else the only one called as renderers call their picture (is_called_picture(); the default view's), else the

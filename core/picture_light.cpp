@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -58,8 +60,13 @@ PictureSource picture_source(std::string_view format, std::span<const PicturePar
   for (const std::size_t c : layer.where) source.channels.push_back(parts[layer.part].channels[c]);
   source.alpha = layer.alpha;
   source.mip_levels = parts[layer.part].mip_levels;
-  for (const PictureLayer& one : picture_layers(parts)) source.layers.push_back(one.name);
+  source.layers = picture_layer_names(parts);
   return source;
+}
+
+int rows_of_band(int width, int block) {
+  constexpr int kBandPixels = 2 << 20;
+  return std::max(block, kBandPixels / width / block * block);
 }
 
 bool may_state_samples(std::string_view name) {

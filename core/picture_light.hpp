@@ -29,9 +29,12 @@ ColourMeaning png_meaning(const std::filesystem::path& path, const PngColour& co
 void decode_colours(const std::filesystem::path& path, const ColourMeaning& meaning,
                     Picture& picture);
 
-/// What the names of parts and layers tell.
+/// A source with its format, channels and layers filled in; the rest is the reader's.
 PictureSource picture_source(std::string_view format, std::span<const PicturePart> parts,
                              const PictureLayer& layer);
+
+/// Rows that are decoded at a time: about two million pixels, and a multiple of `block`.
+int rows_of_band(int width, int block);
 
 /// Whether samples_stated() looks at an attribute of that name.
 bool may_state_samples(std::string_view name);

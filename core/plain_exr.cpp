@@ -39,7 +39,7 @@ struct Unzip {
   Decompress by_zlib = nullptr;
 };
 
-/// What ZIP is in an EXR: see zipped() in exr_writer.cpp. What ISA-L refuses is zlib's to judge.
+/// Unpacks a ZIP block, the inverse of zipped() in exr_writer.cpp. Falls back to zlib if ISA-L fails.
 exr_result_t unzip(exr_decode_pipeline_t* pipeline) try {
   const exr_chunk_info_t& chunk = pipeline->chunk;
   const std::size_t size = chunk.unpacked_size;
@@ -195,7 +195,7 @@ class PlainExr : public PlainFile {
   }
 
  private:
-  /// What is packed without a loss has the same values by every decoder.
+  /// Accepts lossless packing only: all decoders then give the same values.
   bool take_packing() {
     exr_compression_t packing;
     std::int32_t rows = 0;

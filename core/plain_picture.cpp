@@ -22,9 +22,7 @@ bool may_be_plain(std::string_view format) { return format == "openexr" || forma
 std::optional<std::vector<std::string>> plain_layer_names(const PictureBytes& file) {
   const auto plain = open_plain(file);
   if (!plain) return std::nullopt;
-  std::vector<std::string> names;
-  for (const PictureLayer& layer : picture_layers({&plain->part, 1})) names.push_back(layer.name);
-  return names;
+  return picture_layer_names({&plain->part, 1});
 }
 
 std::optional<Picture> read_plain_picture(const PictureBytes& file, const std::string& layer_name) {
@@ -44,11 +42,8 @@ std::optional<Picture> read_plain_picture(const PictureBytes& file, const std::s
   source.multiplied_by_alpha = layer.is_colour && plain->is_unassociated;
   const ColourMeaning meaning = layer.is_colour ? plain->meaning(file.path) : ColourMeaning();
 
-  constexpr int kBandPixels = 2 << 20;
   const bool in_bands = file.on_rows && plain->band_rows > 0;
-  const int rows = in_bands ? std::max(plain->band_rows,
-                                       kBandPixels / width / plain->band_rows * plain->band_rows)
-                            : height;
+  const int rows = in_bands ? rows_of_band(width, plain->band_rows) : height;
   for (int y = 0; y < height; y += rows) {
     Picture band{Image(width, std::min(rows, height - y)), {}, source};
     if (!plain->read(y, layer.where, band.image)) {

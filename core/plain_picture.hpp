@@ -2,7 +2,7 @@
 //
 // Plain is an EXR of one part, by rows, of the channels R, G, B and A or Y and A, packed without a loss, whose data window
 // is its display window; and a PNG of 8 or 16 bits without a palette, a transparent colour, a position or an ICC profile.
-// What is not plain, or damaged, is left to OpenImageIO. Both give the same values, bit for bit.
+// OpenImageIO reads all other files, and damaged ones. For a plain file both give the same values, bit for bit.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@ class PlainFile {
   bool is_unassociated = false;  ///< colours are not multiplied by alpha, the last channel
   int band_rows = 0;             ///< that may be decoded alone; 0: all rows together
 
-  /// Of colours. Throws Error(kInput) as read_picture().
+  /// The curve and primaries of colour layers. Throws Error(kInput) for those that are not read.
   virtual ColourMeaning meaning(const std::filesystem::path& path) const = 0;
   /// Rows from y on of one channel, repeated, or of three. Returns false if the file is damaged.
   virtual bool read(int y, const std::vector<std::size_t>& channels, Image& rows) = 0;

@@ -24,6 +24,19 @@ inline double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// The least of a few runs of something that returns its seconds: without what interrupts it.
+inline double least_seconds(int runs, const std::function<double()>& seconds) {
+  double least = seconds();
+  for (int run = 1; run < runs; ++run) least = std::min(least, seconds());
+  return least;
+}
+
+/// The time of the second of two runs, whose caches do not depend on what ran before.
+inline double warm_seconds(const std::function<void()>& work) {
+  work();
+  return seconds_of(work);
+}
+
 inline Times summary(std::vector<double> seconds) {
   std::sort(seconds.begin(), seconds.end());
   const std::size_t n = seconds.size();

@@ -183,7 +183,7 @@ HWY_INLINE Lanes log_of_colour_error(Lanes distance) {
   return hn::IfThenElse(hn::Gt(share, set(1e-37f)), result, set(kNoFlip));
 }
 
-/// What of filtered pixels the float32 part needs.
+/// The values of filtered pixels that the float32 part uses.
 template <class V>
 struct Compared {
   Triple<V> rgb_a, rgb_b, difference;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "core/picture_message.hpp"
 #include "core/png_module.hpp"
@@ -205,12 +206,17 @@ TEST_F(PlainPicture, WithoutABlockFarBelowIsLeftToOpenImageIoBeforeAnyBandIsGive
   const auto path = directory_.path() / "large.exr";
   write_exr(path, image, {});
   std::string bytes = read_file(path, 1 << 28);
+  int bands = 0;
+  const auto count_bands = [&](const Picture&, int) { ++bands; };
+  PictureBytes whole = bytes_of(bytes, "openexr");
+  whole.on_rows = count_bands;
+  EXPECT_TRUE(read_plain_picture(whole, ""));
+  EXPECT_EQ(std::exchange(bands, 0), 3);
   // The table of offsets, one for 16 rows, follows the header's last attribute.
   const std::size_t table = bytes.find("screenWindowWidth") + 18 + 6 + 4 + 4 + 1;
   bytes.replace(table + 8 * 128, 8, std::string(8, '\0'));
   PictureBytes file = bytes_of(bytes, "openexr");
-  int bands = 0;
-  file.on_rows = [&](const Picture&, int) { ++bands; };
+  file.on_rows = count_bands;
   EXPECT_FALSE(read_plain_picture(file, ""));
   EXPECT_EQ(bands, 0);
 }
