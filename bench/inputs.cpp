@@ -15,13 +15,15 @@ std::string scene_file(std::string_view name) {
   return fmt::format("{}/reference_scenes/scenes/{}.xml", LOBELIA_SOURCE_DIR, name);
 }
 
-Scene crowd(const std::array<int, 3>& n, int side) {
-  constexpr double kSide = 2, kMeanHits = 0.5;
+Scene crowd(CrowdKind kind, const std::array<int, 3>& n, int side) {
+  constexpr double kSide = 2, kShare = 0.4, kMeanHits = 0.5;
   const double count = double(n[0]) * n[1] * n[2];
   SphereLattice lattice;
   lattice.columns = n[0], lattice.rows = n[1], lattice.layers = n[2];
   lattice.step = {kSide / n[0], kSide / n[1], kSide / n[2]};
-  lattice.radius = kSide * std::sqrt(kMeanHits / (std::numbers::pi * count));
+  lattice.radius = kSide * (kind == CrowdKind::kPacked
+                                ? kShare / std::cbrt(count)
+                                : std::sqrt(kMeanHits / (std::numbers::pi * count)));
   lattice.jitter = 1;
   lattice.seed = 1;
   Scene scene;

@@ -15,9 +15,13 @@ namespace lobelia::bench {
 /// The file of a canonical scene.
 std::string scene_file(std::string_view name);
 
-/// Spheres in a jittered lattice of columns, rows and layers, all in the same cube. They are so small that a ray through
-/// it meets equally many on average, whatever their number.
-Scene crowd(const std::array<int, 3>& lattice, int side);
+/// How large a crowd's spheres are.
+enum class CrowdKind {
+  kPacked,  ///< 0.4 of their spacing: a ray soon meets one, so its cost may grow as the logarithm of their number
+  kThin,    ///< a ray through all meets half a sphere on average, and passes the cube root of their number
+};
+/// Spheres in a jittered lattice of columns, rows and layers, all in the same cube.
+Scene crowd(CrowdKind kind, const std::array<int, 3>& lattice, int side);
 
 /// A grid of the models that are not microfacets, two lobes and so many exponents: ten cells for each exponent.
 std::string grid_of_models(int exponents, std::string_view more_axes = "");

@@ -3,20 +3,20 @@
 //   bench_light [light|threads|crowd]...    the sections to run; all by default
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <optional>
+#include <fstream>
+#include <memory>
 #include <span>
 #include <thread>
 
 #include "bench/inputs.hpp"
-#include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "renderer/accelerator.hpp"
-#include "renderer/plan/plan.hpp"
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/convergence.hpp"
 #include "studies/cost/scenes.hpp"
@@ -34,94 +34,55 @@ constexpr double kGoodEfficiency = 0.8;
 
 int processors() { return int(std::max(1u, std::thread::hardware_concurrency())); }
 
-/// The columns, rows and layers of 10^decade spheres, as close to a cube as factors of two and five allow.
-constexpr int kDecades = 6;
-constexpr std::array<int, 3> kLattices[kDecades + 1] = {
-    {1, 1, 1}, {5, 2, 1}, {5, 5, 4}, {10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}};
-
-/// The share of the picture covered by spheres, from a sample of its pixels.
-double coverage(const Scene& scene, const Accelerator& accelerator) {
-  constexpr int kGrid = 64;
-  const CameraFrame f = camera_frame(scene.camera, scene.film);
-  int hits = 0;
-  for (int j = 0; j < kGrid; ++j)
-    for (int i = 0; i < kGrid; ++i) {
-      const double u = (2 * (i + 0.5) / kGrid - 1) * f.half_width;
-      const double v = (1 - 2 * (j + 0.5) / kGrid) * f.half_height;
-      if (accelerator.nearest(f.origin, normalize(f.forward + u * f.right + v * f.up), -1).sphere >=
-          0)
-        ++hits;
-    }
-  return double(hits) / (kGrid * kGrid);
+/// Bytes of memory that this process holds now.
+double resident_bytes() {
+  std::int64_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return double(resident) * double(::sysconf(_SC_PAGESIZE));
 }
 
-struct CrowdTimes {
-  std::vector<double> plan, build, render;  ///< seconds; plan and render without build
-  double coverage = 0;
-};
-
-void measure_once(const Scene& scene, int threads, CrowdTimes& times) {
-  const bool sorted = scene.spheres.size() > kMaxLoopSpheres;
-  std::optional<Accelerator> accelerator;
-  const double build =
-      seconds_of([&] { ThreadLimit(threads).run([&] { accelerator.emplace(scene.spheres); }); });
-  if (times.render.empty()) times.coverage = coverage(scene, *accelerator);
-  accelerator.reset();
-  RenderOptions options;
-  options.threads = threads;
-  const RenderResult result = render_timed(scene, 1, 0, options).result;
-  times.plan.push_back(result.plan_seconds);
-  times.build.push_back(sorted ? build : 0);
-  times.render.push_back(result.render_seconds - times.build.back());
-}
-
-void measure_crowd() {
-  constexpr int kSide = 512;
-  constexpr double kRays = double(kSide) * kSide;
-  std::vector<Scene> scenes;
-  for (const auto& lattice : kLattices) scenes.push_back(crowd(lattice, kSide));
-  std::vector<CrowdTimes> all(scenes.size()), one(scenes.size());
-  for (int repeat = 0; repeat < 5; ++repeat)
-    for (std::size_t d = 0; d < scenes.size(); ++d) {
-      measure_once(scenes[d], 0, all[d]);
-      if (repeat < 3 && (d == 3 || d == kDecades)) measure_once(scenes[d], 1, one[d]);
-    }
-
+void measure_crowd(CrowdKind kind, const char* title) {
+  constexpr int kSide = 256, kSamples = 16;
   fmt::print(
-      "\nCrowd: spheres in the same cube, a ray meets as many on the average; {} x {}, one sample, "
-      "one lamp with shadows, {} threads, median of 5\n",
-      kSide, kSide, processors());
-  fmt::print("{:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>14} {:>10}\n", "spheres", "covered", "plan s",
-             "build s", "render s", "in all s", "ns a ray", "increment");
-  std::vector<double> ns;
-  for (std::size_t d = 0; d < scenes.size(); ++d) {
-    const double plan = median(all[d].plan), build = median(all[d].build);
-    const double render = median(all[d].render);
-    ns.push_back(1e9 * render / kRays);
-    fmt::print("{:>10} {:>8.0f}% {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>14.0f}",
-               scenes[d].spheres.size(), 100 * all[d].coverage, plan, build, render,
-               plan + build + render, ns.back());
-    fmt::print("{}\n", d == 0 ? "" : fmt::format(" {:>10.0f}", ns[d] - ns[d - 1]));
+      "\n{}: {} x {}, {} samples, one lamp with shadows, {} threads, median of 5\n"
+      "{:>10} {:>13} {:>9} {:>9} {:>9} {:>16} {:>10}\n",
+      title, kSide, kSide, kSamples, processors(), "spheres", "bytes of each", "plan s", "build s",
+      "render s", "ns a camera ray", "increment");
+  double before = 0;
+  for (const auto& lattice : {std::array{10, 10, 10},
+                              {25, 20, 20},
+                              {50, 50, 40},
+                              {100, 100, 100},
+                              {200, 200, 100}}) {
+    const Scene scene = crowd(kind, lattice, kSide);
+    const double without = resident_bytes();
+    auto accelerator = std::make_unique<Accelerator>(scene.spheres);
+    const double bytes =
+        sizeof(Sphere) + (resident_bytes() - without) / double(scene.spheres.size());
+    accelerator.reset();
+    std::vector<double> plan, build, trace;
+    double rays = 0;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      const RenderResult result = render_timed(scene, kSamples, 1).result;
+      plan.push_back(result.plan_seconds);
+      build.push_back(result.build_seconds);
+      trace.push_back(result.render_seconds - result.build_seconds);
+      rays = double(result.work.camera_rays);
+    }
+    const double ns = 1e9 * median(trace) / rays;
+    // Below that, what a few pages more or less hold would be counted.
+    constexpr std::size_t kCountable = 100000;
+    fmt::print("{:>10} {:>13} {:>9.4f} {:>9.4f} {:>9.4f} {:>16.0f} {:>10}\n",
+               scene.spheres.size(),
+               scene.spheres.size() >= kCountable ? fmt::format("{:.0f}", bytes) : "", median(plan), median(build), median(trace), ns,
+               before > 0 ? fmt::format("{:.0f}", ns - before) : "");
+    before = ns;
   }
-  fmt::print(
-      "(to {} spheres each is tried; beyond, Embree's hierarchy is built, timed by itself)\n",
-      kMaxLoopSpheres);
-  const double first = ns[3] - ns[2], last = ns[kDecades] - ns[kDecades - 1];
-  fmt::print(
-      "each factor of ten costs {:.0f} ns more from 100 to 1000, {:.0f} ns from 1e5 to 1e6: ratio "
-      "{:.1f} (a logarithm: 1; in proportion: 1000); first decade {:.0f} ns\n",
-      first, last, last / first, ns[1] - ns[0]);
-  const double speedup = median(one[kDecades].render) / median(all[kDecades].render);
-  const double speedup_small = median(one[3].render) / median(all[3].render);
-  fmt::print("{} threads are {:.2f} times as fast as one at 1e6 spheres, {:.2f} at 1000: {}\n",
-             processors(), speedup, speedup_small,
-             speedup > kGoodEfficiency * speedup_small
-                 ? "not what the processors share, but each ray's own steps and waits"
-                 : "memory, which they share, limits the large one");
-  const double build_share =
-      median(all[kDecades].build) /
-      (median(all[kDecades].plan) + median(all[kDecades].build) + median(all[kDecades].render));
-  fmt::print("building is {:.0f} % of a first picture of 1e6\n", 100 * build_share);
+}
+
+void measure_crowds() {
+  measure_crowd(CrowdKind::kPacked, "Packed crowd, spheres of 0.4 times their spacing");
+  measure_crowd(CrowdKind::kThin, "Thin crowd, a ray through it meets half a sphere on average");
 }
 
 void measure_threads() {
@@ -212,7 +173,7 @@ int main(int count, char** arguments) try {
   };
   if (wanted("light")) measure_light();
   if (wanted("threads")) measure_threads();
-  if (wanted("crowd")) measure_crowd();
+  if (wanted("crowd")) measure_crowds();
   return 0;
 } catch (const std::exception& error) {
   fmt::print(stderr, "bench_light: {}\n", error.what());

@@ -52,12 +52,16 @@ class Render {
         fused();
         return;
       }
+      const auto build = Clock::now();
       tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan);
+      result_.build_seconds = seconds_since(build);
       if (options_.target_error || options_.time_limit)
         in_rounds();
       else
         at_once();
+      const auto release = Clock::now();
       tiles_.reset();
+      result_.build_seconds += seconds_since(release);
     });
     throw_if_interrupted();
     for (auto& workspace : workspaces_) result_.work += workspace->work;
