@@ -250,8 +250,7 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVar
 }
 
 /// Over the pixels that are not edges.
-double max_error_of_peak(const Image& picture, const Image& truth,
-                         const std::vector<std::uint8_t>& edges) {
+double max_error_of_peak(const Image& picture, const Image& truth, const PixelFlags& edges) {
   const auto a = picture.values(), b = truth.values();
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -301,7 +300,7 @@ Reached measure_reached(const Scene& scene, const Choice& choice, const Image& p
     case Measure::kMaxOfPeak: {
       // On an edge the formulas may hit another surface, which is no error of a lobe or of its precision.
       const bool formulas = truth::why_not_evaluated(scene).empty();
-      const auto edges = formulas ? truth::edge_ring(scene) : std::vector<std::uint8_t>();
+      const auto edges = formulas ? truth::edge_ring(scene) : PixelFlags();
       reached.value = max_error_of_peak(picture, truth.image, edges);
       if (formulas) reached.against += ", but for pixels on edges";
     }

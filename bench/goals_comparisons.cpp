@@ -71,6 +71,12 @@ void add_comparison_goals(const Tools& tools, Goals& goals) {
                    compare_pair(tools, *hd, {"--metrics=all"}).seconds,
                    compare_pair(tools, *hd, {"--metrics=max_abs", "--any-format"}).seconds};
              }});
+  goals.add({"compare.memory", "all metrics of 7680 x 4320: memory", "GiB", "1/8 GiB", false, 1, 1,
+             0, [=] {
+               const Pair large = rendered(tools, "8k", 7680, 4320, "exr");
+               const ProcessResult result = compare_pair(tools, large, {"--metrics=all"});
+               return Round{double(result.peak_memory_bytes) / (1 << 30), 0.125};
+             }});
   const fs::path flip = find_program("flip");
   for (const bool is_hdr : {false, true}) {
     const std::string id = is_hdr ? "compare.flip.hdr" : "compare.flip.ldr";

@@ -21,9 +21,9 @@ Scene crowd(CrowdKind kind, const std::array<int, 3>& n, int side) {
   SphereLattice lattice;
   lattice.columns = n[0], lattice.rows = n[1], lattice.layers = n[2];
   lattice.step = {kSide / n[0], kSide / n[1], kSide / n[2]};
-  lattice.radius = kSide * (kind == CrowdKind::kPacked
-                                ? kShare / std::cbrt(count)
-                                : std::sqrt(kMeanHits / (std::numbers::pi * count)));
+  lattice.radius =
+      kSide * (kind == CrowdKind::kPacked ? kShare / std::cbrt(count)
+                                          : std::sqrt(kMeanHits / (std::numbers::pi * count)));
   lattice.jitter = 1;
   lattice.seed = 1;
   Scene scene;

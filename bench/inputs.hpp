@@ -18,7 +18,7 @@ std::string scene_file(std::string_view name);
 /// How large a crowd's spheres are.
 enum class CrowdKind {
   kPacked,  ///< 0.4 of their spacing: a ray soon meets one, so its cost may grow as the logarithm of their number
-  kThin,    ///< a ray through all meets half a sphere on average, and passes the cube root of their number
+  kThin,  ///< a ray through all meets half a sphere on average, and passes the cube root of their number
 };
 /// Spheres in a jittered lattice of columns, rows and layers, all in the same cube.
 Scene crowd(CrowdKind kind, const std::array<int, 3>& lattice, int side);

@@ -49,11 +49,8 @@ void measure_crowd(CrowdKind kind, const char* title) {
       title, kSide, kSide, kSamples, processors(), "spheres", "bytes of each", "plan s", "build s",
       "render s", "ns a camera ray", "increment");
   double before = 0;
-  for (const auto& lattice : {std::array{10, 10, 10},
-                              {25, 20, 20},
-                              {50, 50, 40},
-                              {100, 100, 100},
-                              {200, 200, 100}}) {
+  for (const auto& lattice :
+       {std::array{10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}, {200, 200, 100}}) {
     const Scene scene = crowd(kind, lattice, kSide);
     const double without = resident_bytes();
     auto accelerator = std::make_unique<Accelerator>(scene.spheres);
@@ -72,9 +69,9 @@ void measure_crowd(CrowdKind kind, const char* title) {
     const double ns = 1e9 * median(trace) / rays;
     // Below that, what a few pages more or less hold would be counted.
     constexpr std::size_t kCountable = 100000;
-    fmt::print("{:>10} {:>13} {:>9.4f} {:>9.4f} {:>9.4f} {:>16.0f} {:>10}\n",
-               scene.spheres.size(),
-               scene.spheres.size() >= kCountable ? fmt::format("{:.0f}", bytes) : "", median(plan), median(build), median(trace), ns,
+    fmt::print("{:>10} {:>13} {:>9.4f} {:>9.4f} {:>9.4f} {:>16.0f} {:>10}\n", scene.spheres.size(),
+               scene.spheres.size() >= kCountable ? fmt::format("{:.0f}", bytes) : "", median(plan),
+               median(build), median(trace), ns,
                before > 0 ? fmt::format("{:.0f}", ns - before) : "");
     before = ns;
   }

@@ -8,7 +8,7 @@ namespace lobelia::cli {
 namespace {
 
 /// Without the pixels that are ignored nothing would be left to compare.
-void require_some_left(const std::vector<std::uint8_t>& ignored) {
+void require_some_left(const PixelFlags& ignored) {
   if (std::ranges::count(ignored, 0) == 0)
     throw Error(ExitCode::kInput, "--ignore: covers every pixel, so nothing is left to compare");
 }
@@ -77,9 +77,9 @@ void RegionFlags::apply(int width, int height, ComparisonOptions& options) const
       if (options.surfaces[i] == 0) options.mask[i] = 0;
   }
   if (!ignored_.empty()) options.ignored = pixels_inside(ignored_, width, height);
-  std::vector<std::uint8_t>* parts[] = {&options.mask, &options.surfaces, &options.ignored,
-                                        options.tolerance ? &options.tolerance->edges : nullptr};
-  for (std::vector<std::uint8_t>* part : parts)
+  PixelFlags* parts[] = {&options.mask, &options.surfaces, &options.ignored,
+                         options.tolerance ? &options.tolerance->edges : nullptr};
+  for (PixelFlags* part : parts)
     if (part && options.crop) *part = cut(*part, width, *options.crop);
   if (!ignored_.empty()) require_some_left(options.ignored);
   if (!options.noise) return;

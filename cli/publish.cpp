@@ -50,7 +50,7 @@ std::vector<gallery::MetricInfo> metric_infos() {
   return infos;
 }
 
-std::vector<std::uint8_t> surface_of(const std::filesystem::path& file, int width, int height) {
+PixelFlags surface_of(const std::filesystem::path& file, int width, int height) {
   Scene scene = read_scene(file);
   scene.film.width = width;
   scene.film.height = height;

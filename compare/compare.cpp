@@ -419,7 +419,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     if (need_display(list)) result.viewing = with_exposures(options.viewing, peaks);
     Viewing viewing = result.viewing;
     if (!need_display(list)) viewing.display = nullptr;
-    std::vector<std::uint8_t> highlight;
+    PixelFlags highlight;
     if (find_highlight) {
       highlight = highlight_region(a, b, peaks, options.surfaces);
       result.highlight_pixels = std::ranges::count(highlight, 1);
@@ -463,7 +463,7 @@ DisplayImage difference_picture(const Image& a, const Image& b, double white_at)
   require_same_size(a, b);
   DisplayImage picture{a.width(), a.height(), std::vector<std::uint8_t>(3 * a.pixel_count())};
   const std::span<const float> va = a.values(), vb = b.values();
-  for (std::size_t i = 0; i < va.size(); i += 3) {
+  const auto show_pixel = [&](std::size_t i) {
     bool finite = true;
     for (std::size_t j = i; j < i + 3; ++j) {
       const double difference = std::abs(double(va[j]) - double(vb[j]));
@@ -477,7 +477,10 @@ DisplayImage difference_picture(const Image& a, const Image& b, double white_at)
       picture.rgb[i] = picture.rgb[i + 2] = 255;
       picture.rgb[i + 1] = 0;
     }
-  }
+  };
+  in_parts(a.pixel_count(), 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (; begin < end; ++begin) show_pixel(3 * begin);
+  });
   return picture;
 }
 

@@ -30,14 +30,14 @@ struct ComparisonOptions {
   std::optional<Tolerance> tolerance = {};
   /// By pixel in reading order, not 0 inside the mask. Differences are also measured inside and outside of it. Empty for
   /// none.
-  std::vector<std::uint8_t> mask = {};
+  PixelFlags mask = {};
   std::vector<std::string> mask_of = {};  ///< what the mask was made of, for readers of the record
   /// By pixel, not 0 where the highlight may lie. Empty: anywhere.
-  std::vector<std::uint8_t> surfaces = {};
+  PixelFlags surfaces = {};
   /// The part of pictures from files that is compared; see take_part().
   std::optional<PixelWindow> crop = {};
   /// By pixel of that part, not 0 where all pictures count as equal. Empty for none.
-  std::vector<std::uint8_t> ignored = {};
+  PixelFlags ignored = {};
   std::vector<std::string> ignored_of = {};
   /// The metrics to measure: names as is_named() takes them, or "default" for all that need not be requested; empty is
   /// "default". What the limits are on is measured as well.

@@ -130,9 +130,7 @@ void DisplayLight::fill(int y, int first, std::span<float> rgb) const {
   else
     HWY_DYNAMIC_DISPATCH(rational_lanes)
   (tone_constants(curve_), float(gain_), values, rgb.data(), rgb.size());
-  // The system brings the pages around as well.
-  constexpr std::size_t kAround = std::size_t{64} << 10;
-  looked_at(rgb.size_bytes() + kAround);
+  looked_at_row(rgb.size_bytes());
 }
 
 }  // namespace lobelia

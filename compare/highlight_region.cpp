@@ -36,14 +36,13 @@ Peaks peaks_of(const Image& a, const Image& b) {
   return peaks;
 }
 
-std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
-                                           std::span<const std::uint8_t> mask) {
+PixelFlags highlight_region(const Image& a, const Image& b, std::span<const std::uint8_t> mask) {
   return highlight_region(a, b, peaks_of(a, b), mask);
 }
 
-std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b, const Peaks& peaks,
-                                           std::span<const std::uint8_t> mask) {
-  std::vector<std::uint8_t> region(a.pixel_count(), 0);
+PixelFlags highlight_region(const Image& a, const Image& b, const Peaks& peaks,
+                            std::span<const std::uint8_t> mask) {
+  PixelFlags region(a.pixel_count());
   const auto width = std::size_t(a.width());
   for (const auto& [image, peak] : {std::pair(&a, peaks.a), {&b, peaks.b}}) {
     const double least = kHighlightShare * peak;
@@ -55,23 +54,23 @@ std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b, const
                 least &&
             (mask.empty() || mask[pixel] != 0))
           region[pixel] = 1;
-      looked_at(3 * sizeof(float) * width);
+      looked_at((3 * sizeof(float) + 1) * width);
     });
   }
   return region;
 }
 
-std::vector<std::uint8_t> grown(std::span<const std::uint8_t> region, int width, int radius) {
-  std::vector<std::uint8_t> result(region.begin(), region.end());
-  if (radius <= 0 || region.empty()) return result;
+PixelFlags grown(std::span<const std::uint8_t> region, int width, int radius) {
+  if (radius <= 0 || region.empty()) return {region.begin(), region.end()};
   const auto across = std::size_t(width);
   const int down = int(region.size() / across);
-  std::vector<std::uint8_t> rows(region.size());
+  PixelFlags rows(region.size()), result(region.size());
   const auto row_of = [across](auto& pixels, int y) {
     return pixels.data() + across * std::size_t(y);
   };
   oneapi::tbb::parallel_for(0, down, [&](int y) {
     grow_row({row_of(region, y), across}, std::size_t(radius), row_of(rows, y));
+    looked_at(2 * across);
   });
   oneapi::tbb::parallel_for(0, down, [&](int y) {
     std::uint8_t* const out = row_of(result, y);
@@ -80,6 +79,7 @@ std::vector<std::uint8_t> grown(std::span<const std::uint8_t> region, int width,
       const std::uint8_t* const row = row_of(rows, from);
       for (std::size_t x = 0; x < count; ++x) out[x] |= row[x];
     }
+    looked_at(2 * across);
   });
   return result;
 }

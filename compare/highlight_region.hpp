@@ -17,13 +17,12 @@ Peaks peaks_of(const Image& a, const Image& b);
 /// By pixel, 1 where the pixel is in the highlight of `a` or of `b`, and inside `mask` unless that is empty: so that a
 /// highlight that one of them lacks is looked at, and a single bright pixel does not hide the other's highlight. All 0
 /// if no value is positive. Finite pictures of one size.
-std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b,
-                                           std::span<const std::uint8_t> mask);
-std::vector<std::uint8_t> highlight_region(const Image& a, const Image& b, const Peaks& peaks,
-                                           std::span<const std::uint8_t> mask);
+PixelFlags highlight_region(const Image& a, const Image& b, std::span<const std::uint8_t> mask);
+PixelFlags highlight_region(const Image& a, const Image& b, const Peaks& peaks,
+                            std::span<const std::uint8_t> mask);
 
 /// The region grown by `radius` pixels to all sides.
-std::vector<std::uint8_t> grown(std::span<const std::uint8_t> region, int width, int radius);
+PixelFlags grown(std::span<const std::uint8_t> region, int width, int radius);
 
 /// Stops from the exposure that shows the peak just below white to the one that shows the tail.
 inline constexpr double kTailStops = 6;

@@ -53,16 +53,14 @@ MaskShape::Polygon parse_polygon(std::string_view option, std::string_view text)
   return corners;
 }
 
-void add(const MaskShape::Rectangle& shape, std::vector<std::uint8_t>& pixels, int width,
-         int height) {
+void add(const MaskShape::Rectangle& shape, PixelFlags& pixels, int width, int height) {
   const int left = std::max(0, shape.x), right = std::min(width, shape.x + shape.width);
   for (int y = std::max(0, shape.y); y < std::min(height, shape.y + shape.height); ++y)
     for (int x = left; x < right; ++x)
       pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)] = 1;
 }
 
-void add(const MaskShape::Polygon& corners, std::vector<std::uint8_t>& pixels, int width,
-         int height) {
+void add(const MaskShape::Polygon& corners, PixelFlags& pixels, int width, int height) {
   std::vector<double> crossings;
   for (int y = 0; y < height; ++y) {
     const double middle = y + 0.5;
@@ -86,7 +84,7 @@ void add(const MaskShape::Polygon& corners, std::vector<std::uint8_t>& pixels, i
   }
 }
 
-void add(const Image& picture, std::vector<std::uint8_t>& pixels, int, int) {
+void add(const Image& picture, PixelFlags& pixels, int, int) {
   for (std::size_t i = 0; i < picture.values().size(); ++i)
     if (picture.values()[i] != 0) pixels[i / 3] = 1;
 }
@@ -122,8 +120,8 @@ MaskShape parse_mask_shape(std::string_view option, const std::string& text) {
   return {text, std::move(picture)};
 }
 
-std::vector<std::uint8_t> pixels_inside(std::span<const MaskShape> shapes, int width, int height) {
-  std::vector<std::uint8_t> pixels(std::size_t(width) * std::size_t(height), 0);
+PixelFlags pixels_inside(std::span<const MaskShape> shapes, int width, int height) {
+  PixelFlags pixels(std::size_t(width) * std::size_t(height));
   for (const MaskShape& shape : shapes) {
     if (const auto* picture = std::get_if<Image>(&shape.form);
         picture && (picture->width() != width || picture->height() != height))
@@ -142,16 +140,15 @@ Image cut(Image image, const PixelWindow& window) {
   return place(std::move(image), {0, 0, width, height}, window);
 }
 
-std::vector<std::uint8_t> cut(std::span<const std::uint8_t> pixels, int width,
-                              const PixelWindow& window) {
+PixelFlags cut(std::span<const std::uint8_t> pixels, int width, const PixelWindow& window) {
   if (pixels.empty()) return {};
   require_inside(window, width, int(pixels.size() / std::size_t(width)));
-  std::vector<std::uint8_t> result;
-  for (int y = window.y; y < window.y + window.height; ++y) {
-    const auto row = pixels.subspan(std::size_t(y) * std::size_t(width) + std::size_t(window.x),
-                                    std::size_t(window.width));
-    result.insert(result.end(), row.begin(), row.end());
-  }
+  PixelFlags result(std::size_t(window.width) * std::size_t(window.height));
+  for (int y = 0; y < window.height; ++y)
+    std::ranges::copy(
+        pixels.subspan(std::size_t(window.y + y) * std::size_t(width) + std::size_t(window.x),
+                       std::size_t(window.width)),
+        result.begin() + std::ptrdiff_t{window.width} * y);
   return result;
 }
 

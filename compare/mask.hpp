@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/picture.hpp"
+#include "core/pixel_flags.hpp"
 
 namespace lobelia {
 
@@ -33,12 +34,11 @@ bool is_picture_of_mask(std::string_view text);
 std::vector<std::filesystem::path> picture_files(std::span<const MaskShape> shapes);
 
 /// By pixel, 1 where it is inside any of the shapes. Throws Error(kInput) if a picture has another size.
-std::vector<std::uint8_t> pixels_inside(std::span<const MaskShape> shapes, int width, int height);
+PixelFlags pixels_inside(std::span<const MaskShape> shapes, int width, int height);
 
 /// What a window holds. Throws Error(kInput) unless it lies within the picture.
 Image cut(Image image, const PixelWindow& window);
 /// The same of a value for each pixel of a picture that is `width` wide; nothing of nothing.
-std::vector<std::uint8_t> cut(std::span<const std::uint8_t> pixels, int width,
-                              const PixelWindow& window);
+PixelFlags cut(std::span<const std::uint8_t> pixels, int width, const PixelWindow& window);
 
 }  // namespace lobelia

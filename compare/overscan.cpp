@@ -42,10 +42,9 @@ Image all_data(const Picture& picture, const PixelWindow& window) {
   return place(picture.overscan, relative_data(picture.source), window);
 }
 
-std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& mask, const PixelWindow& display,
-                                  const PixelWindow& window) {
+PixelFlags widened(const PixelFlags& mask, const PixelWindow& display, const PixelWindow& window) {
   if (mask.empty()) return {};
-  std::vector<std::uint8_t> result(std::size_t(area(window)));
+  PixelFlags result(std::size_t(area(window)));
   const auto width = std::size_t(display.width);
   for (int y = 0; y < display.height; ++y)
     std::copy_n(mask.begin() + std::ptrdiff_t(width * std::size_t(y)), width,

@@ -59,8 +59,8 @@ Image blurred(const Image& image) {
 }
 
 /// The pixels of the highlight that hangs together with the brightest pixel.
-std::vector<std::uint8_t> brightest_highlight(const Image& image) {
-  std::vector<std::uint8_t> left = highlight_region(image, image, {}), found(left.size(), 0);
+PixelFlags brightest_highlight(const Image& image) {
+  PixelFlags left = highlight_region(image, image, {}), found(left.size());
   const auto brightest = std::ranges::max_element(image.values()) - image.values().begin();
   std::vector<std::size_t> open{std::size_t(brightest) / 3};
   const auto width = std::size_t(image.width());
@@ -79,8 +79,8 @@ std::vector<std::uint8_t> brightest_highlight(const Image& image) {
 
 /// In place of its brightest highlight the picture has what is around it, or black.
 Image without_brightest_highlight(const Image& image) {
-  const std::vector<std::uint8_t> highlight = brightest_highlight(image),
-                                  around = grown(highlight, image.width(), 1);
+  const PixelFlags highlight = brightest_highlight(image),
+                   around = grown(highlight, image.width(), 1);
   std::array<double, 3> fill{};
   double count = 0;
   for (std::size_t pixel = 0; pixel < highlight.size(); ++pixel) {

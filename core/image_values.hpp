@@ -48,8 +48,10 @@ inline double peak_value(const Image& image) {
 /// The largest finite |value|; 0 if there is none.
 inline double largest_magnitude(std::span<const float> values) {
   float largest = 0;
-  for (const float value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  in_parts(values.size(), sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (const float value : values.subspan(begin, end - begin))
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  });
   return largest;
 }
 

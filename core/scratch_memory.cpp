@@ -13,7 +13,11 @@
 namespace lobelia {
 namespace {
 
-constexpr std::size_t kMostLookedAt = std::size_t{64} << 20;
+constexpr std::size_t kMostLookedAt = std::size_t{32} << 20;
+
+/// What is made of a large picture has fewer bytes a pixel than it. Beside one, pieces that are so many times smaller are
+/// in files as well.
+constexpr std::size_t kSmaller = 16;
 
 std::atomic<std::size_t> g_least{0};  ///< bytes of a piece in a file; 0: none is
 std::atomic<std::size_t> g_looked_at{0};
@@ -26,6 +30,11 @@ struct Pieces {
 Pieces& pieces() {
   static auto* all = new Pieces;  // some pictures live until the process ends
   return *all;
+}
+
+bool has_pieces() {
+  const std::lock_guard lock(pieces().mutex);
+  return !pieces().sizes.empty();
 }
 
 }  // namespace
@@ -41,7 +50,8 @@ void looked_at(std::size_t bytes) {
 }
 
 void* map_file(std::size_t bytes) {
-  if (g_least == 0 || bytes < g_least) return nullptr;
+  if (g_least == 0 || bytes < (has_pieces() ? g_least / kSmaller : std::size_t{g_least}))
+    return nullptr;
   const char* directory = std::getenv("TMPDIR");
   const Descriptor file(::open(directory && *directory ? directory : "/tmp",
                                O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));

@@ -10,12 +10,19 @@ namespace lobelia {
 inline constexpr std::size_t kLargePiece = std::size_t{64} << 20;
 
 /// From now on allocate_zeroed() (core/image.hpp) maps pieces of at least `least` bytes from files without a name in
-/// $TMPDIR. Where that has no room for one, it is in memory as any other. 0: no piece, as at first.
+/// $TMPDIR, and while one is there, of a sixteenth as well. Where that has no room for one, it is in memory as any other.
+/// 0: no piece, as at first.
 void keep_large_pieces_in_files(std::size_t least = kLargePiece);
 
 /// Says that so many bytes of such pieces may have been looked at or written since the last call, by this thread. Each time
-/// that is 64 MiB for all threads together, no page of them stays in this process. They come back when they are looked at.
+/// that is 32 MiB for all threads together, no page of them stays in this process. They come back when they are looked at.
 void looked_at(std::size_t bytes);
+
+/// The same of a row of a part of a picture: the system brings the pages around it as well.
+inline void looked_at_row(std::size_t bytes) {
+  constexpr std::size_t kAround = std::size_t{64} << 10;
+  looked_at(bytes + kAround);
+}
 
 /// Calls f(begin, end) for one range after the other of `count` elements, of `bytes` each in all arrays together, and says
 /// that they were looked at.

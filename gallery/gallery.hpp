@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/image.hpp"
+#include "core/pixel_flags.hpp"
 #include "gallery/metrics.hpp"
 
 namespace lobelia::gallery {
@@ -28,11 +28,11 @@ struct MapKind {
 };
 
 /// The pixels that a verdict was about, by pixel not 0: the highlight of two finite pictures of one size.
-using RegionOf = std::function<std::vector<std::uint8_t>(const Image& a, const Image& b)>;
+using RegionOf = std::function<PixelFlags(const Image& a, const Image& b)>;
 
 /// By pixel of a picture of this size, not 0 where a scene has a surface; empty if that is not known.
-using SurfaceOf = std::function<std::vector<std::uint8_t>(const std::filesystem::path& scene,
-                                                          int width, int height)>;
+using SurfaceOf =
+    std::function<PixelFlags(const std::filesystem::path& scene, int width, int height)>;
 
 /// A folder for each of so many cells is slow to write, to copy and to delete.
 inline constexpr std::size_t kManyCells = 2000;

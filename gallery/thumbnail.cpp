@@ -74,8 +74,7 @@ void draw_inset(Image& image, const Image& whole, const Square& of) {
   draw_frame(image, at);
 }
 
-DisplayImage thumbnail(const Image& whole, int width, int height,
-                       const std::vector<std::uint8_t>& surface) {
+DisplayImage thumbnail(const Image& whole, int width, int height, const PixelFlags& surface) {
   Image image = reduced(whole, width, height);
   for (std::size_t i = 0; i < surface.size(); ++i) {
     const auto pixel = image.pixel(int(i) % width, int(i) / width);
@@ -90,7 +89,7 @@ DisplayImage thumbnail(const Image& whole, int width, int height,
 DisplayImage small_thumbnail(const Image& ours, const fs::path& run, const SurfaceOf& surface_of,
                              const CheckedCell& cell, int side) {
   const auto [width, height] = size_within(ours.width(), ours.height(), side);
-  std::vector<std::uint8_t> surface;
+  PixelFlags surface;
   if (surface_of && cell.has_scene)
     surface = unless_input(
         [&] { return surface_of(run / "cells" / cell.id / "scene.xml", width, height); });

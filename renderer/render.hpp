@@ -47,7 +47,8 @@ struct RenderResult {
   /// evenly.
   std::optional<double> error;
   double plan_seconds = 0, render_seconds = 0;
-  double build_seconds = 0;  ///< part of render_seconds: building what rays are searched with, and releasing it
+  double build_seconds =
+      0;  ///< part of render_seconds: building what rays are searched with, and releasing it
   std::string instruction_set;  ///< "AVX2", as chosen for this processor
 };
 

@@ -34,13 +34,15 @@ ColourTable blue_white_red() {
 }
 
 /// A copy with 0 for values that are not finite; marks their pixels in `broken`.
-Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) {
-  Image copy = image;
-  for (std::size_t i = 0; i < copy.values().size(); ++i)
-    if (!std::isfinite(copy.values()[i])) {
-      copy.values()[i] = 0;
-      broken[i / 3] = 1;
-    }
+Image without_non_finite(const Image& image, PixelFlags& broken) {
+  Image copy(image.width(), image.height());
+  in_parts(image.values().size(), 2 * sizeof(float) + 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (std::isfinite(image.values()[i]))
+        copy.values()[i] = image.values()[i];
+      else
+        broken[i / 3] = 1;
+  });
   return copy;
 }
 
@@ -71,7 +73,7 @@ PixelValues measure_difference_map(const DifferenceMap& map, const Image& a, con
   if (map.needs_exposures && !viewing.hdr_exposures)
     throw Error(ExitCode::kUsage, fmt::format("the map {} needs a range of exposures", map.id));
   if (is_finite(a) && is_finite(b)) return measure_finite(map, a, b, viewing);
-  std::vector<std::uint8_t> broken(a.pixel_count(), 0);
+  PixelFlags broken(a.pixel_count());
   const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
   PixelValues values = measure_finite(map, finite_a, finite_b, viewing);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -91,14 +93,17 @@ DisplayImage colour_picture(std::span<const float> values, int width, int height
   const ColourTable table = diverges ? blue_white_red() : colour_table(colour_map);
   DisplayImage picture{width, height, std::vector<std::uint8_t>(3 * values.size())};
   if (diverges) scale.from = -scale.to;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  const auto show_pixel = [&](std::size_t i) {
     const double share = (double(values[i]) - scale.from) / (scale.to - scale.from);
     const double position = std::clamp(share, 0.0, 1.0);
     const auto& colour = std::isnan(share)
                              ? kNotFinite
                              : table[std::size_t(std::lround(position * (kColourTableSize - 1)))];
     std::copy(colour.begin(), colour.end(), picture.rgb.begin() + std::ptrdiff_t(3 * i));
-  }
+  };
+  in_parts(values.size(), sizeof(float), [&](std::size_t begin, std::size_t end) {
+    for (; begin < end; ++begin) show_pixel(begin);
+  });
   return picture;
 }
 

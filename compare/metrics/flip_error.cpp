@@ -146,6 +146,8 @@ FlipTile differing_part(const Image& a, const Image& b, const FlipTile& tile, in
   };
   for (int y = top; y < bottom; ++y) {
     const std::span<const float> of_a = row(a, y, left, right), of_b = row(b, y, left, right);
+    looked_at_row(of_a.size_bytes());
+    looked_at_row(of_b.size_bytes());
     if (std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0) continue;
     const auto first = std::ranges::mismatch(of_a, of_b).in1;
     if (first == of_a.end()) continue;
@@ -214,10 +216,11 @@ PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
     const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
     std::vector<float> values(padded * std::size_t(tile.height));
     values_of(tile, values);
-    for (int row = 0; row < tile.height; ++row)
+    for (int row = 0; row < tile.height; ++row) {
       std::copy_n(values.data() + padded * std::size_t(row), columns,
                   map.begin() + std::ptrdiff_t(tile.top + row) * width + tile.left);
-    looked_at(columns * std::size_t(tile.height) * sizeof(float));
+      looked_at_row(columns * sizeof(float));
+    }
   });
   return map;
 }

@@ -34,7 +34,7 @@ class RegionPixels {
 
  private:
   const MetricInput& input_;
-  std::map<std::pair<Region, int>, std::vector<std::uint8_t>> made_;
+  std::map<std::pair<Region, int>, PixelFlags> made_;
 };
 
 /// Worse of two values of an output that takes a limit; of a fact the first.

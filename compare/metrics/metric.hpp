@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compare/display_light.hpp"
-#include "core/image.hpp"
+#include "core/pixel_flags.hpp"
 
 namespace lobelia {
 
@@ -88,7 +88,7 @@ struct Tolerance {
   std::int64_t allowed_outliers = 0;
   /// By pixel, 1 where an outlier may lie (silhouettes, terminators, shadow edges: see truth::edge_ring()); none may
   /// lie elsewhere. Empty: anywhere.
-  std::vector<std::uint8_t> edges = {};
+  PixelFlags edges = {};
 };
 
 /// The pixels that a figure is of.

@@ -26,7 +26,7 @@ void measure_outliers(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   const double relative = input.tolerance->relative;
   const double floor = input.tolerance->of_peak * peak_value(input.b);
-  const std::vector<std::uint8_t>& edges = input.tolerance->edges;
+  const PixelFlags& edges = input.tolerance->edges;
   std::int64_t outliers = 0, off_edge = 0;
   in_parts(a.size() / 3, 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {

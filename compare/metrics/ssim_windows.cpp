@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "compare/metrics/shared_work.hpp"
+#include "core/scratch_memory.hpp"
 
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__
@@ -268,9 +269,8 @@ void halve(const TileLuma& luma, const Area& area, int width, int height, LumaPl
 }
 
 LumaPlane half_of(const LumaRows& rows) {
-  LumaPlane half{(rows.width + 1) / 2, (rows.height + 1) / 2, {}};
-  half.values.resize(std::size_t(half.width) * std::size_t(half.height));
-  return half;
+  const int width = (rows.width + 1) / 2, height = (rows.height + 1) / 2;
+  return {width, height, LumaPlane::Values(std::size_t(width) * std::size_t(height))};
 }
 
 }  // namespace
@@ -286,6 +286,7 @@ LumaRows luma(const DisplayLight& shown) {
 LumaRows rows_of(const LumaPlane& plane) {
   return {plane.width, plane.height, [&plane](int y, int first, std::span<float> row) {
             std::copy_n(plane.row(y) + first, row.size(), row.data());
+            looked_at(row.size_bytes());
           }};
 }
 
@@ -328,6 +329,8 @@ SsimScale ssim_scale(const LumaRows& a, const LumaRows& b,
                             }
                           }
                         });
+    // The regions, and a quarter of the pixels in two planes of floats: in whole rows, which the system brings.
+    looked_at(std::size_t(rows) * std::size_t(a.width) * (regions.size() + 2));
   });
   // In order of the tiles: the sum must not depend on the number of threads.
   for (std::size_t r = 0; r < regions.size(); ++r) {

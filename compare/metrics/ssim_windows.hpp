@@ -10,8 +10,9 @@ namespace lobelia {
 
 /// One display-encoded channel in [0, 1]. A type of its own, so that it cannot be confused with linear light.
 struct LumaPlane {
+  using Values = std::vector<float, ZeroedMemory<float>>;
   int width = 0, height = 0;
-  std::vector<float> values;
+  Values values;
 
   const float* row(int y) const { return values.data() + std::size_t(y) * std::size_t(width); }
 };

@@ -59,7 +59,7 @@ Verdict verdict_of(const Variant& variant, const Case& one, const Figures& figur
 struct Truth {
   std::string why_not;
   Picture picture;
-  std::vector<std::uint8_t> ring;
+  PixelFlags ring;
 };
 
 class Measurement {
@@ -191,7 +191,7 @@ class Measurement {
   }
 
   void add(std::size_t i, const Variant& variant, const Image& image) {
-    std::vector<std::uint8_t> ring = truths_[i].ring;
+    PixelFlags ring = truths_[i].ring;
     const Case& one = result_.cases[i];
     const std::int64_t grazing = truth::mark_grazing(one.scene, variant.floor.least_cosine, ring);
     const Figures figures = difference_from(truths_[i].picture, image, ring);

@@ -108,7 +108,7 @@ Made make_truth(const Scene& scene) {
 }
 
 /// With the truth at edges, where two correct programs may differ by a whole pixel.
-Image without_edges(Image image, const Image& truth, const std::vector<std::uint8_t>& edges) {
+Image without_edges(Image image, const Image& truth, const PixelFlags& edges) {
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (edges[i])
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) image.values()[c] = truth.values()[c];
@@ -152,8 +152,8 @@ std::vector<Contender> contenders(const Scene& scene, const std::filesystem::pat
   return all;
 }
 
-Variant measured_contender(Contender& one, const Image& truth,
-                           const std::vector<std::uint8_t>& edges, const ComparisonOptions& seen) {
+Variant measured_contender(Contender& one, const Image& truth, const PixelFlags& edges,
+                           const ComparisonOptions& seen) {
   const Comparison comparison = compare(without_edges(one.last.image, truth, edges), truth, seen);
   Variant variant;
   variant.name = one.name;
@@ -211,7 +211,7 @@ Table measure_scene(const NamedScene& named, const Options& options) {
 
   options.progress(named.name + ": the formulas in 50 digits");
   const Made truth = make_truth(scene);
-  const std::vector<std::uint8_t> edges = truth::edge_ring(scene);
+  const PixelFlags edges = truth::edge_ring(scene);
   const int rounds = options.rounds(1, 5, 11);
   for (int round = 0; round < rounds; ++round)
     for (Contender& one : all) {

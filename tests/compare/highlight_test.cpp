@@ -158,10 +158,9 @@ double mean(const std::vector<float>& values) {
 }
 
 /// Within `radius` rows and columns of a pixel of the region.
-std::vector<std::uint8_t> plainly_grown(std::span<const std::uint8_t> region, int width,
-                                        int radius) {
+PixelFlags plainly_grown(std::span<const std::uint8_t> region, int width, int radius) {
   const int height = int(region.size()) / width;
-  std::vector<std::uint8_t> result(region.size(), 0);
+  PixelFlags result(region.size(), 0);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int v = std::max(0, y - radius); v <= std::min(height - 1, y + radius); ++v)
@@ -174,7 +173,7 @@ TEST(Region, GrowsAsThePlainLoopsSayForRandomRegions) {
   std::mt19937 random(20);
   for (int round = 0; round < 50; ++round) {
     const int width = 1 + int(random() % 40), height = 1 + int(random() % 40);
-    std::vector<std::uint8_t> region(std::size_t(width * height));
+    PixelFlags region(std::size_t(width * height));
     for (std::uint8_t& pixel : region) pixel = random() % 50 == 0;
     const int radius = int(random() % 12);
     EXPECT_EQ(grown(region, width, radius), plainly_grown(region, width, radius));
@@ -187,7 +186,7 @@ TEST(Region, FiguresAreThoseOfItsPixelsAlone) {
   ComparisonOptions options;
   options.highlight = true;
   const Comparison comparison = compare(a, b, options);
-  const std::vector<std::uint8_t> region = highlight_region(a, b, {});
+  const PixelFlags region = highlight_region(a, b, {});
   EXPECT_EQ(comparison.highlight_pixels, std::ranges::count(region, 1));
   const auto map = [&](const char* id) {
     return measure_difference_map(*find_difference_map(id), a, b, options.viewing);

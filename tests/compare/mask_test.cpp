@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<std::uint8_t> inside(const std::vector<std::string>& shapes, int width, int height) {
+PixelFlags inside(const std::vector<std::string>& shapes, int width, int height) {
   std::vector<MaskShape> parsed;
   for (const std::string& text : shapes) parsed.push_back(parse_mask_shape("--mask", text));
   return pixels_inside(parsed, width, height);
@@ -45,7 +45,7 @@ TEST(MaskShapes, OfAPolygonThePixelsAreThoseWithTheirCentreInsideByTheEvenOddRul
       corners.push_back({eighth(), eighth()});
       text += fmt::format(" {},{}", corners.back()[0], corners.back()[1]);
     }
-    const std::vector<std::uint8_t> pixels = inside({text}, 40, 30);
+    const PixelFlags pixels = inside({text}, 40, 30);
     for (int y = 0; y < 30; ++y)
       for (int x = 0; x < 40; ++x)
         EXPECT_EQ(pixels[std::size_t(40 * y + x)] != 0, is_in_polygon(corners, x + 0.5, y + 0.5))
@@ -55,8 +55,7 @@ TEST(MaskShapes, OfAPolygonThePixelsAreThoseWithTheirCentreInsideByTheEvenOddRul
 
 TEST(MaskShapes, AddUpAndMayReachBeyondThePicture) {
   const auto pixels = inside({"rect:-2,-1,4,3", "rect:3,2,9,9"}, 5, 4);
-  const std::vector<std::uint8_t> expected{1, 1, 0, 0, 0, 1, 1, 0, 0, 0,
-                                           0, 0, 0, 1, 1, 0, 0, 0, 1, 1};
+  const PixelFlags expected{1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1};
   EXPECT_EQ(pixels, expected);
   EXPECT_EQ(std::ranges::count(inside({"rect:7,7,2,2"}, 5, 4), 1), 0);
 }
@@ -85,9 +84,9 @@ TEST(MaskShapes, OfAPictureNeedItsSize) {
   EXPECT_THROW(pixels_inside({&shape, 1}, 3, 4), Error);
 }
 
-std::vector<std::uint8_t> random_mask(std::size_t pixels, unsigned seed) {
+PixelFlags random_mask(std::size_t pixels, unsigned seed) {
   std::mt19937 random(seed);
-  std::vector<std::uint8_t> mask(pixels);
+  PixelFlags mask(pixels);
   for (std::uint8_t& pixel : mask) pixel = random() % 3 == 0 ? 255 : 0;
   return mask;
 }
@@ -168,8 +167,8 @@ TEST(Crop, ComparesThePartAndNothingElse) {
   for (int y = 0; y < 11; ++y)
     for (int x = 0; x < 20; ++x)
       std::ranges::copy(pair.a.image.pixel(x + 7, y + 3), part.pixel(x, y).begin());
-  const std::vector<std::uint8_t> mask = random_mask(1200, 6);
-  const std::vector<std::uint8_t> of_part = cut(mask, 40, *options.crop);
+  const PixelFlags mask = random_mask(1200, 6);
+  const PixelFlags of_part = cut(mask, 40, *options.crop);
   EXPECT_EQ(of_part[20 * 2 + 5], mask[40 * 5 + 12]);
   EXPECT_EQ(of_part.size(), 220u);
   take_part(pair, "a", "b", options);

@@ -84,7 +84,7 @@ TEST(EveryMetric, IsTheSameBitForBitWhereThePicturesAreInFiles) {
 
 TEST(EveryMetric, IsTheSameBitForBitMeasuredWithTheOthersAsAlone) {
   for (const auto& [a, b] : pairs()) {
-    std::vector<std::uint8_t> mask(a.pixel_count()), highlight(mask);
+    PixelFlags mask(a.pixel_count()), highlight(mask);
     for (std::size_t i = 0; i < mask.size(); ++i) {
       mask[i] = i % 5 < 2;
       highlight[i] = i % 3 == 0 && i > mask.size() / 2;
@@ -216,7 +216,7 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
       Image bright = fixtures::flat(8, 8, 1, 0, 0);
       // Nothing differs in the first row and column: a place is seen to change.
       for (int k = 0; k < 8; ++k) bright.pixel(k, 0)[0] = bright.pixel(0, k)[0] = 0.0015f;
-      const Tolerance half{0.9985, 0, 0, std::vector<std::uint8_t>(8 * 8, 0)};
+      const Tolerance half{0.9985, 0, 0, PixelFlags(8 * 8, 0)};
       const std::vector<double> forth = measure(*metric, fixtures::input(dim, bright, &half));
       const std::vector<double> back = measure(*metric, fixtures::input(bright, dim, &half));
       changed = forth.at(i) != back.at(i);

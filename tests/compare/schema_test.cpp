@@ -38,7 +38,7 @@ void expect_refused(const Plain& good, const std::function<void(Plain&)>& change
 ComparisonOptions everything(const Image& image) {
   ComparisonOptions options;
   options.viewing.hdr_exposures = HdrExposures{-2, 1.5, 3};
-  options.tolerance = Tolerance{1e-3, 1e-6, 3, std::vector<std::uint8_t>(image.pixel_count(), 1)};
+  options.tolerance = Tolerance{1e-3, 1e-6, 3, PixelFlags(image.pixel_count(), 1)};
   options.mask.assign(image.pixel_count(), 1);
   options.limits = {{"rmse", 1e-9}, {"ssim", -1}};
   options.warnings = {{"mae", 0}};

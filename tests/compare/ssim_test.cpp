@@ -21,7 +21,7 @@ Image grey_code(int width, int height, int code) {
 /// {mean of l c s, mean of c s} with 121 weights a window and deviations from the mean, over the windows around a pixel
 /// of the region.
 std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b,
-                                 const std::vector<std::uint8_t>& region = {}) {
+                                 const PixelFlags& region = {}) {
   double weights[11][11], total = 0, lcs = 0, cs = 0;
   for (int j = 0; j < 11; ++j)
     for (int i = 0; i < 11; ++i)
@@ -75,7 +75,7 @@ LumaPlane half(const LumaPlane& whole) {
 
 LumaPlane shown_luma(const Image& image) {
   const LumaRows rows = luma(DisplayLight(image, 0));
-  LumaPlane plane{rows.width, rows.height, std::vector<float>(image.pixel_count())};
+  LumaPlane plane{rows.width, rows.height, LumaPlane::Values(image.pixel_count())};
   for (int y = 0; y < rows.height; ++y)
     rows.fill(
         y, 0,
@@ -116,7 +116,7 @@ TEST(Ssim, OfARandomMaskAgreesWithADoubleLoopOverTheWindowsAroundItsPixels) {
   for (const std::uint64_t seed : {3, 4}) {
     const Image random = fixtures::noise(40, 33, seed, 1);
     ComparisonOptions options;
-    std::vector<std::uint8_t> rest;
+    PixelFlags rest;
     for (std::size_t i = 0; i < a.pixel_count(); ++i) {
       options.mask.push_back(random.values()[3 * i] < 0.3f);
       rest.push_back(!options.mask.back());
@@ -216,12 +216,12 @@ TEST(SsimScale, HasThePlainMeansOfItsRegionsAndTheNextScaleWhereverATileEnds) {
     // The pictures differ in some pixels of each tile, at the border too.
     for (const std::size_t step : {std::size_t{1}, std::size_t{997}, b.values.size() - 1}) {
       for (std::size_t i = 0; i < b.values.size(); i += step) b.values[i] = 1 - b.values[i];
-      std::vector<std::uint8_t> some(a.values.size());
+      PixelFlags some(a.values.size());
       for (std::size_t i = 0; i < some.size(); ++i) some[i] = i % 7 != 3;
       const std::span<const std::uint8_t> regions[] = {{}, some};
       const SsimScale scale = ssim_scale(rows_of(a), rows_of(b), regions);
       for (const bool in_some : {false, true}) {
-        const auto plain = plain_ssim(a, b, in_some ? some : std::vector<std::uint8_t>());
+        const auto plain = plain_ssim(a, b, in_some ? some : PixelFlags());
         EXPECT_NEAR(scale.of_region[in_some].similarity, plain[0], 1e-12);
         EXPECT_NEAR(scale.of_region[in_some].contrast_structure, plain[1], 1e-12);
       }

@@ -53,6 +53,22 @@ TEST_F(ScratchMemory, LeavesTheMemoryAfterItWasLookedAt) {
   EXPECT_GT(before, kibibytes_of_files_in_memory() + 15 * kSmall / 1024);
 }
 
+TEST_F(ScratchMemory, HoldsWhatIsASixteenthOfAPictureWhileThePictureIsThere) {
+  keep_large_pieces_in_files(16 * kSmall);
+  const auto leaves_memory = [] {
+    const Memory part(kSmall, 1);
+    const std::size_t before = kibibytes_of_files_in_memory();
+    looked_at(kAllOfThem);
+    return before > kibibytes_of_files_in_memory() + kSmall / 2048;
+  };
+  EXPECT_FALSE(leaves_memory());
+  {
+    const Memory picture(16 * kSmall);
+    EXPECT_TRUE(leaves_memory());
+  }
+  EXPECT_FALSE(leaves_memory());
+}
+
 TEST_F(ScratchMemory, IsTheSameWhileManyThreadsWriteAndLetGo) {
   constexpr std::size_t kThreads = 4;
   Memory memory(4 * kSmall);

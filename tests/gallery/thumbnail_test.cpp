@@ -32,9 +32,9 @@ std::optional<Image> thumbnail(const FakeFarm& farm, const SurfaceOf& surface) {
   return read_image(file);
 }
 
-std::vector<std::uint8_t> left_half(const std::filesystem::path& scene, int width, int height) {
+PixelFlags left_half(const std::filesystem::path& scene, int width, int height) {
   EXPECT_EQ(scene.filename(), "scene.xml");
-  std::vector<std::uint8_t> mask(std::size_t(width) * height);
+  PixelFlags mask(std::size_t(width) * height);
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = int(i) % width < width / 2;
   return mask;
 }
@@ -75,7 +75,7 @@ TEST(Thumbnail, EnlargesASmallHighlightInTheFarthestCornerAndNoLargeOne) {
 TEST(Thumbnail, IsMadeWithoutTheSceneWhereThatCannotBeRead) {
   const FakeFarm farm;
   put_highlight(farm, 10, 10, 40);
-  EXPECT_TRUE(thumbnail(farm, [](const auto&, int, int) -> std::vector<std::uint8_t> {
+  EXPECT_TRUE(thumbnail(farm, [](const auto&, int, int) -> PixelFlags {
     throw Error(ExitCode::kInput, "a scene of another version");
   }));
 }

@@ -34,7 +34,7 @@ std::vector<Scene> highlights(const std::vector<double>& exponents) {
 /// How far the picture is from the formulas, in floors: at most 1 in every pixel off the ring.
 double floors_apart(const Scene& scene, const Image& image, const EngineFloor& floor) {
   const std::vector<Rgb> truth = truth::evaluate(scene, truth::Digits::kDouble);
-  std::vector<std::uint8_t> ring = truth::edge_ring(scene);
+  PixelFlags ring = truth::edge_ring(scene);
   truth::mark_grazing(scene, floor.least_cosine, ring);
   double peak = 0, apart = 0;
   for (const Rgb& value : truth) peak = std::max({peak, value.r, value.g, value.b});

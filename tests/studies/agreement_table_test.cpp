@@ -63,7 +63,7 @@ TEST(AgreementCases, ShowEveryHighlightInManyPixels) {
 
 /// Two pixels, the second one in the ring.
 const Picture kReference = {{1, 0.5, 1e-4}, {1, 1, 1}};
-const std::vector<std::uint8_t> kRing = {0, 1};
+const PixelFlags kRing = {0, 1};
 
 Image image_of(std::vector<float> values) {
   Image image(2, 1);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/pixel_flags.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::truth {
@@ -26,14 +27,14 @@ std::vector<Rgb> evaluate(const Scene& scene, Digits digits,
 /// By pixel in reading order, 1 where the rays through its centre and through its eight neighbours' do not all see the same
 /// surfaces and checker squares, lit by the same lamps, along the whole chain of mirrors. Only there may two correct programs
 /// differ by the whole value of a pixel. Throws as evaluate() does.
-std::vector<std::uint8_t> edge_ring(const Scene& scene);
+PixelFlags edge_ring(const Scene& scene);
 
 /// Sets `ring` to 1 in the pixels whose centre sees a surface that a lamp lights with 0 < N.L < least_cosine. Returns how many
 /// these are. Throws as evaluate() does.
-std::int64_t mark_grazing(const Scene& scene, double least_cosine, std::vector<std::uint8_t>& ring);
+std::int64_t mark_grazing(const Scene& scene, double least_cosine, PixelFlags& ring);
 
 /// By pixel in reading order, 1 where the ray through its centre meets a sphere or a plane, whatever the lights, the lens and
 /// the samples. Throws Error(kInput) for more than kMaxSpheresByRay spheres.
-std::vector<std::uint8_t> surface_mask(const Scene& scene);
+PixelFlags surface_mask(const Scene& scene);
 
 }  // namespace lobelia::truth

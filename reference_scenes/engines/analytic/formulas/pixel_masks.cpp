@@ -43,7 +43,7 @@ std::uint64_t situation(const Scene& scene, const Tracer<double>& tracer, double
 
 }  // namespace
 
-std::vector<std::uint8_t> edge_ring(const Scene& scene) {
+PixelFlags edge_ring(const Scene& scene) {
   if (const std::string why = why_not_evaluated(scene); !why.empty())
     throw Error(ExitCode::kInput, why);
   const Tracer<double> tracer(scene);
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> edge_ring(const Scene& scene) {
     for (int x = 0; x < stride; ++x)
       seen[std::size_t(y) * stride + x] = situation(scene, tracer, x - 0.5, y - 0.5);
   });
-  std::vector<std::uint8_t> ring(std::size_t(width) * height, 0);
+  PixelFlags ring(std::size_t(width) * height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int v = y; v <= y + 2; ++v)
@@ -64,8 +64,7 @@ std::vector<std::uint8_t> edge_ring(const Scene& scene) {
   return ring;
 }
 
-std::int64_t mark_grazing(const Scene& scene, double least_cosine,
-                          std::vector<std::uint8_t>& ring) {
+std::int64_t mark_grazing(const Scene& scene, double least_cosine, PixelFlags& ring) {
   if (const std::string why = why_not_evaluated(scene); !why.empty())
     throw Error(ExitCode::kInput, why);
   if (least_cosine <= 0) return 0;
@@ -86,13 +85,13 @@ std::int64_t mark_grazing(const Scene& scene, double least_cosine,
   return grazing;
 }
 
-std::vector<std::uint8_t> surface_mask(const Scene& scene) {
+PixelFlags surface_mask(const Scene& scene) {
   if (scene.spheres.size() > kMaxSpheresByRay)
     throw Error(ExitCode::kInput, fmt::format("a mask is of up to {} spheres; this scene has {}",
                                               kMaxSpheresByRay, scene.spheres.size()));
   const Tracer<double> tracer(scene);
   const int width = scene.film.width, height = scene.film.height;
-  std::vector<std::uint8_t> mask(std::size_t(width) * std::size_t(height), 0);
+  PixelFlags mask(std::size_t(width) * std::size_t(height));
   oneapi::tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x)
       if (tracer.meet(tracer.camera_origin(), tracer.camera_ray(x + 0.5, y + 0.5)))
