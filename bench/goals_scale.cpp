@@ -72,7 +72,7 @@ void add_scale_goals(const Tools& tools, Goals& goals) {
   };
   add_crowd("scale.crowd", "packed: a ray's growth, 1e5 to 4e6 spheres",
             "that of a logarithm, by 1e3 to 1e5", 1.5, CrowdKind::kPacked, std::log);
-  // Its hierarchy of 600 MB is many times the last cache, which the cube root does not know.
+  // Its hierarchy of 460 MB is many times the last cache, which the cube root does not know.
   add_crowd("scale.thin_crowd", "thin: a ray's growth, 1e5 to 4e6 spheres",
             "that of the cube root, by 1e3 to 1e5", 2.5, CrowdKind::kThin, std::cbrt);
   const std::string program = tools.program_text();
