@@ -1,7 +1,6 @@
 #include "cli/compare_pictures.hpp"
 
 #include <fnmatch.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/files.hpp"
+#include "core/for_each_whole.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "core/sha256.hpp"
@@ -126,9 +126,8 @@ void for_each_pair(std::size_t count, Work work) {
   const int threads = oneapi::tbb::this_task_arena::max_concurrency();
   const bool one_more = count > 1 && threads == usual_threads() && threads > 1;
   ThreadLimit(threads + one_more).run([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      oneapi::tbb::this_task_arena::isolate([&] { work(i); });
-    });
+    for_each_whole(count,
+                   [&](std::size_t i) { oneapi::tbb::this_task_arena::isolate([&] { work(i); }); });
   });
 }
 

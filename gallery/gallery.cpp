@@ -1,10 +1,10 @@
 #include "gallery/gallery.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <regex>
 
+#include "core/for_each_whole.hpp"
 #include "core/interrupt.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
@@ -95,7 +95,7 @@ std::vector<CellSummary> publish_cells(
     const ShownFarm& farm, const std::function<CellSummary(const CellEntry&)>& publish_one) {
   std::vector<CellSummary> summaries(farm.cells.size());
   // Only the summaries are kept: thousands of cells do not fit into memory together.
-  oneapi::tbb::parallel_for(std::size_t{0}, farm.cells.size(), [&](std::size_t i) {
+  for_each_whole(farm.cells.size(), [&](std::size_t i) {
     throw_if_interrupted();
     summaries[i] = publish_one(farm.cells[i]);
   });

@@ -1,12 +1,12 @@
 #include "gallery/packed_cells.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/base64.hpp"
+#include "core/for_each_whole.hpp"
 #include "core/interrupt.hpp"
 #include "gallery/cell_chunk.hpp"
 #include "gallery/cell_page.hpp"
@@ -101,7 +101,7 @@ std::vector<CellSummary> publish_packed_cells(const fs::path& run, const Gallery
   std::vector<std::string> links;
   const std::vector<std::size_t> order = sorted(farm, links);
   const std::size_t chunks = (order.size() + kCellsOfChunk - 1) / kCellsOfChunk;
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t number) {
+  for_each_whole(chunks, [&](std::size_t number) {
     CellChunk chunk;
     std::vector<DisplayImage> thumbnails;
     const std::size_t end = std::min(order.size(), (number + 1) * kCellsOfChunk);

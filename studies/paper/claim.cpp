@@ -1,7 +1,7 @@
 #include "studies/paper/claim.hpp"
+#include "core/for_each_whole.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
 
@@ -59,8 +59,7 @@ std::vector<Claim> measure_all() {
 #define LOBELIA_LIST(claim) claim,
   static constexpr Claim (*kMeasure[])() = {LOBELIA_PAPER_CLAIMS(LOBELIA_LIST)};
   std::vector<Claim> claims(std::size(kMeasure));
-  oneapi::tbb::parallel_for(std::size_t{0}, claims.size(),
-                            [&](std::size_t i) { claims[i] = kMeasure[i](); });
+  for_each_whole(claims.size(), [&](std::size_t i) { claims[i] = kMeasure[i](); });
   return claims;
 }
 

@@ -1,7 +1,7 @@
+#include "core/for_each_whole.hpp"
 #include "studies/paper/report.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -191,7 +191,7 @@ std::vector<Plot> plots() {
        {"energy-rdf-seen", "energy-brdf"}},
   };
   std::vector<Plot> drawn(all.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+  for_each_whole(all.size(), [&](std::size_t i) {
     drawn[i] = {all[i].file, all[i].draw(), all[i].claims};
   });
   return drawn;

@@ -1,13 +1,13 @@
 #include "studies/stability/report.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <iterator>
 
+#include "core/for_each_whole.hpp"
 #include "core/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
@@ -271,7 +271,7 @@ Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)
 
   std::vector<Rows> parts(jobs.size());
   std::atomic<int> done{0};
-  oneapi::tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+  for_each_whole(jobs.size(), [&](std::size_t i) {
     if (interrupted()) return;
     parts[i] = jobs[i]();
     on_progress(double(++done) / double(jobs.size()));
