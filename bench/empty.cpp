@@ -1,4 +1,5 @@
-// What a command cannot do without: the loader's work for its libraries, and then as many page faults and flushed files.
+// What a command hardly does without: the loader's work for its libraries, and then as many page faults, of fresh memory,
+// and flushed files.
 //
 //   bench_empty [PAGES [FILE]...]
 #include <fcntl.h>

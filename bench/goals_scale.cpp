@@ -22,14 +22,11 @@ constexpr int kCrowdSide = 256, kTinyCells = 1000;
 
 /// Crowds of 1e3, 1e5 and 4e6 spheres: what a camera ray costs more from the second to the third, and from the first to
 /// the second times `expected`.
-Round crowd_growth(std::vector<Scene>& crowds, CrowdKind kind, double (*expected)(double)) {
-  if (crowds.empty())
-    for (const auto& lattice : {std::array{10, 10, 10}, {50, 50, 40}, {200, 200, 100}}) {
-      crowds.push_back(crowd(kind, lattice, kCrowdSide));
-      crowds.back().sampler.sample_count = 16;
-    }
+Round crowd_growth(CrowdKind kind, double (*expected)(double)) {
   std::vector<double> seconds, growth;
-  for (const Scene& scene : crowds) {
+  for (const auto& lattice : {std::array{10, 10, 10}, {50, 50, 40}, {200, 200, 100}}) {
+    Scene scene = crowd(kind, lattice, kCrowdSide);
+    scene.sampler.sample_count = 16;
     std::uint64_t rays = 1;
     const double least = least_seconds(3, [&] {
       const RenderResult result = render(scene, {});
@@ -66,13 +63,12 @@ double picture_seconds(const fs::path& out) {
 void add_scale_goals(const Tools& tools, Goals& goals) {
   const auto add_crowd = [&](std::string id, std::string what, std::string against, double goal,
                              CrowdKind kind, double (*expected)(double)) {
-    const auto crowds = std::make_shared<std::vector<Scene>>();
     goals.add({std::move(id), std::move(what), "s", std::move(against), false, goal, 5, 0,
-               [=] { return crowd_growth(*crowds, kind, expected); }});
+               [=] { return crowd_growth(kind, expected); }});
   };
   add_crowd("scale.crowd", "packed: a ray's growth, 1e5 to 4e6 spheres",
             "that of a logarithm, by 1e3 to 1e5", 1.5, CrowdKind::kPacked, std::log);
-  // Its hierarchy of 460 MB is many times the last cache, which the cube root does not know.
+  // Its hierarchy of some 460 MB is many times the last cache, which the cube root does not know.
   add_crowd("scale.thin_crowd", "thin: a ray's growth, 1e5 to 4e6 spheres",
             "that of the cube root, by 1e3 to 1e5", 2.5, CrowdKind::kThin, std::cbrt);
   const std::string program = tools.program_text();

@@ -45,7 +45,8 @@ void add_start_goals(const Tools& tools, Goals& goals) {
   const auto render = [=](int side) {
     return render_command(program, "head_on", side, side, tools.scratch / "start.exr");
   };
-  // A larger program takes more page faults, and its files wait for the disk.
+  // A larger program takes more page faults, and its files wait for the disk. A program that becomes larger still is held
+  // by the goal beside the empty program alone.
   const auto add = [&](const std::string& id, const std::string& what,
                        const std::vector<std::string>& command,
                        const std::vector<std::string>& files) {

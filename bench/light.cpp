@@ -2,6 +2,7 @@
 //
 //   bench_light [light|threads|crowd]...    the sections to run; all by default
 #include <fmt/format.h>
+#include <malloc.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -52,6 +53,7 @@ void measure_crowd(CrowdKind kind, const char* title) {
   for (const auto& lattice :
        {std::array{10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}, {200, 200, 100}}) {
     const Scene scene = crowd(kind, lattice, kSide);
+    ::malloc_trim(0);  // what was released before would be counted as well
     const double without = resident_bytes();
     auto accelerator = std::make_unique<Accelerator>(scene.spheres);
     const double bytes =

@@ -396,8 +396,12 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   Comparison result;
   result.viewing = options.viewing;
   result.tolerance = options.tolerance;
-  const auto count_of = [](std::span<const std::uint8_t> pixels) {
-    return std::ranges::count_if(pixels, [](auto inside) { return inside != 0; });
+  const auto count_of = [](const PixelFlags& pixels) {
+    std::int64_t count = 0;
+    in_parts(pixels.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (; begin < end; ++begin) count += pixels[begin] != 0;
+    });
+    return count;
   };
   if (!options.mask.empty()) result.mask_pixels = count_of(options.mask);
   result.mask_of = options.mask_of;
@@ -422,7 +426,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     PixelFlags highlight;
     if (find_highlight) {
       highlight = highlight_region(a, b, peaks, options.surfaces);
-      result.highlight_pixels = std::ranges::count(highlight, 1);
+      result.highlight_pixels = count_of(highlight);
       result.highlight_share = double(*result.highlight_pixels) / double(a.pixel_count());
     }
     const MetricInput input{a,

@@ -22,19 +22,21 @@ constexpr std::size_t kSmaller = 16;
 std::atomic<std::size_t> g_least{0};  ///< bytes of a piece in a file; 0: none is
 std::atomic<std::size_t> g_looked_at{0};
 
+struct Piece {
+  std::size_t size;
+  bool is_large;  ///< by itself, not beside another
+};
+
 struct Pieces {
   std::mutex mutex;
-  std::map<void*, std::size_t> sizes;
+  std::map<void*, Piece> at;
 };
+
+std::atomic<int> g_large{0};  ///< large pieces that are there
 
 Pieces& pieces() {
   static auto* all = new Pieces;  // some pictures live until the process ends
   return *all;
-}
-
-bool has_pieces() {
-  const std::lock_guard lock(pieces().mutex);
-  return !pieces().sizes.empty();
 }
 
 }  // namespace
@@ -46,12 +48,12 @@ void looked_at(std::size_t bytes) {
   g_looked_at = 0;
   const std::lock_guard lock(pieces().mutex);
   // The file keeps what is in a shared mapping, also what was written.
-  for (const auto& [memory, size] : pieces().sizes) ::madvise(memory, size, MADV_DONTNEED);
+  for (const auto& [memory, piece] : pieces().at) ::madvise(memory, piece.size, MADV_DONTNEED);
 }
 
 void* map_file(std::size_t bytes) {
-  if (g_least == 0 || bytes < (has_pieces() ? g_least / kSmaller : std::size_t{g_least}))
-    return nullptr;
+  const std::size_t least = g_least;
+  if (least == 0 || bytes < (g_large > 0 ? least / kSmaller : least)) return nullptr;
   const char* directory = std::getenv("TMPDIR");
   const Descriptor file(::open(directory && *directory ? directory : "/tmp",
                                O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
@@ -59,17 +61,20 @@ void* map_file(std::size_t bytes) {
   if (!file || ::posix_fallocate(file.get(), 0, off_t(bytes)) != 0) return nullptr;
   void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (memory == MAP_FAILED) return nullptr;
+  const bool is_large = bytes >= least;
+  g_large += is_large;
   const std::lock_guard lock(pieces().mutex);
-  pieces().sizes.emplace(memory, bytes);
+  pieces().at.emplace(memory, Piece{bytes, is_large});
   return memory;
 }
 
 bool unmap_file(void* memory) {
   const std::lock_guard lock(pieces().mutex);
-  const auto found = pieces().sizes.find(memory);
-  if (found == pieces().sizes.end()) return false;
-  ::munmap(memory, found->second);
-  pieces().sizes.erase(found);
+  const auto found = pieces().at.find(memory);
+  if (found == pieces().at.end()) return false;
+  ::munmap(memory, found->second.size);
+  g_large -= found->second.is_large;
+  pieces().at.erase(found);
   return true;
 }
 

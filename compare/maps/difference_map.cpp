@@ -76,8 +76,10 @@ PixelValues measure_difference_map(const DifferenceMap& map, const Image& a, con
   PixelFlags broken(a.pixel_count());
   const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
   PixelValues values = measure_finite(map, finite_a, finite_b, viewing);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (broken[i] != 0) values[i] = float(kNaN);
+  in_parts(values.size(), sizeof(float) + 1, [&](std::size_t begin, std::size_t end) {
+    for (; begin < end; ++begin)
+      if (broken[begin] != 0) values[begin] = float(kNaN);
+  });
   return values;
 }
 

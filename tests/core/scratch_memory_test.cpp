@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -62,9 +63,11 @@ TEST_F(ScratchMemory, HoldsWhatIsASixteenthOfAPictureWhileThePictureIsThere) {
     return before > kibibytes_of_files_in_memory() + kSmall / 2048;
   };
   EXPECT_FALSE(leaves_memory());
+  std::optional<Memory> kept;
   {
     const Memory picture(16 * kSmall);
     EXPECT_TRUE(leaves_memory());
+    kept.emplace(kSmall);
   }
   EXPECT_FALSE(leaves_memory());
 }
