@@ -1,5 +1,4 @@
-// What a command hardly does without: the loader's work for its libraries, and then as many page faults, of fresh memory,
-// and flushed files.
+// An empty program with lobelia's libraries. It touches so many new pages, and writes and flushes so many small files.
 //
 //   bench_empty [PAGES [FILE]...]
 #include <fcntl.h>

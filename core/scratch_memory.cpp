@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::size_t kMostLookedAt = std::size_t{32} << 20;
 
-/// What is made of a large picture has fewer bytes a pixel than it. Beside one, pieces that are so many times smaller are
-/// in files as well.
+/// A mask has a twelfth of its picture's bytes. While a large piece is in a file, pieces this many times smaller are too.
 constexpr std::size_t kSmaller = 16;
 
 std::atomic<std::size_t> g_least{0};  ///< bytes of a piece in a file; 0: none is

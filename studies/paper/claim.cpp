@@ -1,9 +1,10 @@
 #include "studies/paper/claim.hpp"
-#include "core/for_each_whole.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "core/for_each_whole.hpp"
 
 namespace lobelia::paper {
 

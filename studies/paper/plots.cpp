@@ -1,4 +1,3 @@
-#include "core/for_each_whole.hpp"
 #include "studies/paper/report.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/files.hpp"
+#include "core/for_each_whole.hpp"
 #include "studies/paper/energy.hpp"
 
 namespace lobelia::paper {
