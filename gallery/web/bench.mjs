@@ -1,7 +1,7 @@
 // How a grid of many cells fares in the browser: `LOBELIA_PROGRAM=... node bench.mjs [CELLS]` prints the time until it can be
 // used, the time of Find and of a cell's page, the browser's memory, and the files and bytes of the site. 150000 cells are the
 // most that a farm has. GRID_BENCH=DIR keeps the farm there; GRID_OPTIONS are for `lobelia gallery`, such as --no-packed.
-import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, readlinkSync, statSync } from 'node:fs';
 import path from 'node:path';
 import { fileUrl, launch, lobelia, open, scratch } from './test/browser.mjs';
 import { writeLargeFarm } from './bench_farm.mjs';
@@ -21,10 +21,19 @@ const files = readdirSync(site, { recursive: true }).map((name) => statSync(path
 const megabytes = files.reduce((sum, s) => sum + s.size, 0) / 1e6;
 
 const browser = await launch(), whole = await browser.newBrowserCDPSession();
-const resident = ({ id }) => { try { return Number(/^Pss:\s+(\d+)/m.exec(readFileSync(`/proc/${id}/smaps_rollup`, 'utf8'))?.[1] ?? 0) / 1000; } catch { return 0; } };
+const readable = (file, read = readFileSync) => { try { return read(file, 'utf8'); } catch { return ''; } };
+/** From our names of processes to those in /proc, which `lobelia`'s PID namespaces do not change. */
+function namesInProc() {
+  const names = new Map(), ours = readlinkSync('/proc/self/ns/pid');
+  for (const name of readdirSync('/proc').filter((entry) => /^\d+$/.test(entry)))
+    if (readable(`/proc/${name}/ns/pid`, readlinkSync) === ours)
+      names.set(Number(/^NSpid:.*\s(\d+)$/m.exec(readable(`/proc/${name}/status`))?.[1]), name);
+  return names;
+}
 /** Megabytes of the largest page's process, and of all processes. */
 async function memory() {
-  const { processInfo } = await whole.send('SystemInfo.getProcessInfo');
+  const { processInfo } = await whole.send('SystemInfo.getProcessInfo'), names = namesInProc();
+  const resident = ({ id }) => Number(/^Pss:\s+(\d+)/m.exec(readable(`/proc/${names.get(id)}/smaps_rollup`))?.[1] ?? 0) / 1000;
   return { page: Math.max(0, ...processInfo.filter((p) => p.type === 'renderer').map(resident)), all: processInfo.reduce((sum, p) => sum + resident(p), 0) };
 }
 const blank = await open(browser, 'about:blank');
