@@ -18,7 +18,7 @@ constexpr double kBlack = 0x1p-151;
 constexpr double kErrorOfS = 1e-5;
 constexpr double kFarthest = 1e6;
 
-/// An eye or a light, as a sphere sees it.
+/// An eye or a light, as a sphere of radius 1 sees it.
 class Onlooker {
  public:
   Onlooker(Vec3 offset, double radius)
@@ -33,6 +33,17 @@ class Onlooker {
     const double seen = std::acos(1 / distance_);  // beyond, the point is turned away
     return angle >= seen ? std::asin(1 / distance_)
                          : std::atan2(std::sin(angle), distance_ - std::cos(angle));
+  }
+  /// The unit vector to it from the point with the normal N is centre * to_it - normal * N. Both fall as the angle
+  /// between the two grows.
+  struct Weights {
+    double centre, normal;
+  };
+  Weights weights(double angle) const {
+    if (distance_ == 0) return {1, 0};
+    const double seen = std::min(angle, std::acos(1 / distance_));
+    const double apart = std::hypot(std::sin(seen), distance_ - std::cos(seen));
+    return {distance_ / apart, 1 / apart};
   }
 
  private:
@@ -65,22 +76,33 @@ std::optional<NormalCap> highlight_reach(const Highlight& highlight, const Spher
   const double sum_length = length(sum);
   if (!(sum_length > 1e-3)) return std::nullopt;
   const Vec3 axis = 1 / sum_length * sum;
-  const double to_viewer = angle_between(axis, viewer.to_it);
-  const double to_light = angle_between(axis, light.to_it);
-  // A smaller cap has less parallax, which makes it smaller again.
+  const double half = angle_between(axis, viewer.to_it);  // and to the light
+  // A smaller cap has less parallax, which makes it smaller again. The first step holds for every normal.
   double reach = kRightAngle;
   for (int step = 0; step < 6; ++step) {
-    const double moved = 2 * std::sin(viewer.parallax(to_viewer + reach) / 2) +
-                         2 * std::sin(light.parallax(to_light + reach) / 2);
-    if (!(moved < sum_length)) return std::nullopt;
-    double own = std::acos(std::max(0.0, 1 - s));
+    const double moved =
+        (viewer.parallax(half + reach) + light.parallax(half + reach)) / 2;  // most of g
+    if (!(half + moved < kRightAngle)) return std::nullopt;
+    double across, along;  // V + L beside N, and along it, where the cap ends
     if (info(highlight.model).angle == LobeAngle::kReflection) {
-      const double cos_g = (sum_length - moved) / 2;
-      const double squared = s / (2 * cos_g * cos_g);
-      if (!(squared < 1)) return std::nullopt;
-      own = std::asin(std::sqrt(squared));
+      const double shortest = 2 * std::cos(half + moved);
+      across = std::sqrt(2 * s);
+      if (!(across < shortest)) return std::nullopt;
+      along = std::sqrt(shortest * shortest - across * across);
+    } else {
+      const double longest = 2 * std::cos(std::max(0.0, half - moved));
+      const double cosine = std::max(0.0, 1 - s);
+      across = longest * std::sqrt(1 - cosine * cosine);
+      along = longest * cosine;
     }
-    reach = std::min(reach, own + std::asin(moved / sum_length) + 1e-6);
+    const double nearest = std::max(0.0, half - reach);
+    const auto v_near = viewer.weights(nearest), v_far = viewer.weights(half + reach);
+    const auto l_near = light.weights(nearest), l_far = light.weights(half + reach);
+    const auto skew = [](double a, double b) { return (a - b) / (a + b); };
+    const double aside =
+        std::max(skew(v_near.centre, l_far.centre), skew(l_near.centre, v_far.centre));
+    reach = std::min(reach, std::atan2(across, along + v_far.normal + l_far.normal) +
+                                std::atan(aside * std::tan(half)) + 1e-6);
   }
   if (!(reach < kRightAngle - 1e-3)) return std::nullopt;
   return NormalCap{axis, reach};

@@ -23,6 +23,9 @@ struct NormalCap {
 /// The bounds, with L and V to light and eye and 2g between them: N lies within acos(1 - s) of H for a lobe of the
 /// half-vector angle. For one of the mirror angle 1 - s = 2 (N.L) (N.V) - L.V <= 2 cos^2(N, H) cos^2 g - cos 2g, thus
 /// sin^2(N, H) <= s / (2 cos^2 g).
+///
+/// V = a e - b N and L = c l - d N, with e and l the directions from the centre, so the normal is even nearer to
+/// a e + c l = (V + L) + (b + d) N than to H. That sum is as far from the axis, the middle of e and l, as a and c differ.
 std::optional<NormalCap> highlight_reach(const Highlight& highlight, const Sphere& sphere, Vec3 eye,
                                          const Lamp& lamp, double brightest);
 

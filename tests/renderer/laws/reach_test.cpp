@@ -6,6 +6,7 @@
 #include "renderer/chord.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/lights/lights.hpp"
+#include "tests/more_samples.hpp"
 #include "tests/renderer/laws/cases.hpp"
 #include "tests/renderer/random_scene.hpp"
 
@@ -65,7 +66,7 @@ double shown_value(const Sight& sight, double coefficient, Vec3 normal) {
 TEST(HighlightReach, HoldsEveryNormalThatShines) {
   Random random(20261127);
   int narrow = 0, shining_near_the_edge = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 20000 * more_samples(); ++i) {
     const Sight sight = random_sight(random);
     const double coefficient = radiance_coefficient(sight.highlight);
     const Lamp lamp = lamp_of(sight.light);
@@ -83,11 +84,33 @@ TEST(HighlightReach, HoldsEveryNormalThatShines) {
     }
     for (int k = 0; k < 4; ++k)
       shining_near_the_edge +=
-          shown_value(sight, coefficient, at_angle(cap->axis, 0.8 * cap->angle, random)) > 0;
+          shown_value(sight, coefficient, at_angle(cap->axis, 0.9 * cap->angle, random)) > 0;
   }
   EXPECT_GT(narrow, 5000);
   // A bound that holds because it is far too wide is of no use.
   EXPECT_GT(shining_near_the_edge, 1500);
+}
+
+TEST(HighlightReach, IsHardlyWiderThanTheHighlightOfALightBehindTheEye) {
+  const Lamp lamp = Lamp::distant({0, 0, -1}, {1, 1, 1});
+  for (const double distance : {1.5, 2.0, 5.0, 50.0})
+    for (const double exponent : {20.0, 64.0, 1000.0}) {
+      Highlight highlight{*find_model("phong_rdf"), *find_lobe("cs16")};
+      highlight.exponent = exponent;
+      const auto cap = highlight_reach(highlight, {{0, 0, 0}, 1, 0}, {0, 0, distance}, lamp, 1);
+      ASSERT_TRUE(cap);
+      // Where the light is reflected beside the eye at the angle at which the lobe ends.
+      double low = 0, high = kRightAngle;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = (low + high) / 2;
+        const double beside =
+            2 * middle + std::atan2(std::sin(middle), distance - std::cos(middle));
+        (1 - std::cos(beside) < 16 / exponent ? low : high) = middle;
+      }
+      // Near its end the lobe's value rounds to 0.
+      EXPECT_GE(cap->angle, 0.99 * low);
+      EXPECT_LE(cap->angle, 1.08 * low) << "at " << distance << ", n = " << exponent;
+    }
 }
 
 TEST(HighlightReach, IsUnknownForLobesThatMayRiseAgain) {
@@ -102,7 +125,7 @@ TEST(HighlightReach, IsUnknownForLobesThatMayRiseAgain) {
 TEST(HighlightReach, LeavesThePictureAsItIsBitForBit) {
   Random random(7);
   double rays = 0, others = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 400 * more_samples(); ++i) {
     Scene scene;
     scene.materials.clear();
     scene.film = {64 + random.below(90), 64 + random.below(90)};
