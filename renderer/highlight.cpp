@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
+#include <charconv>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
@@ -67,65 +70,91 @@ constexpr auto kLobeUses = map_types<LobeUse>(LobesById{}, []<class L>() {
 
 /// The texts of one member of a family, with the number k.
 struct MemberText {
-  std::string name, title, formula, moments;
+  std::string name, formula, moments;
+  LobeInfo info;
   MemberText(const LobeInfo& family, std::string member_name, std::string_view member_formula,
              int order)
-      : name(std::move(member_name)), title(name) {
+      : name(std::move(member_name)) {
     const auto with_order = [&](std::string_view text, std::string& to) {
       for (const char c : text) to += c == 'k' ? std::to_string(order) : std::string(1, c);
     };
     with_order(member_formula, formula);
     with_order(family.moments, moments);
+    info = {name, name, formula, moments, family.source};
   }
 };
+template <class L>
+std::unique_ptr<MemberText> make_member(int order) {
+  std::string formula(L::kInfo.formula);
+  if constexpr (requires { L::member_formula(order); }) formula = L::member_formula(order);
+  return std::make_unique<MemberText>(L::kInfo, L::member_name(order), formula, order);
+}
 
-/// Every lobe that has a name, the members of a family in ascending order.
+/// Every lobe that has a name, the listed members of a family in ascending order. A member's texts are made when they are
+/// asked for: a family has hundreds, and a command looks at one.
 class LobeTable {
  public:
   LobeTable() {
-    map_types<int>(Lobes{}, [this]<class L>() { return add<L>(); });
+    map_types<int>(Lobes{}, [this]<class L>() { return list<L>(); });
   }
 
   std::vector<LobeId> listed;
   std::vector<std::string_view> names;
 
   const LobeInfo& info(const LobeId& id) const {
-    return id.formula ? id.formula->info() : infos_.at({id.index, id.order});
+    if (id.formula) return id.formula->info();
+    const Family& family = kFamilies.at(id.index);
+    if (!family.make) return *family.info;
+    if (!family.has(id.order))
+      throw std::out_of_range(fmt::format("{} of order {}", family.info->name, id.order));
+    const std::lock_guard lock(mutex_);
+    std::unique_ptr<MemberText>& text = members_[{id.index, id.order}];
+    if (!text) text = family.make(id.order);
+    return text->info;
   }
   std::optional<LobeId> find(std::string_view name) const {
-    for (const auto& [id, info] : infos_)
-      if (info.name == name) return LobeId{id.first, id.second};
+    if (const auto at = std::ranges::find(names, name); at != names.end())
+      return listed[std::size_t(at - names.begin())];
+    const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+    int order = 0;
+    std::from_chars(name.data() + digits, name.data() + name.size(), order);
+    for (std::size_t i = 0; i < kFamilies.size(); ++i)
+      if (const LobeId id{std::uint8_t(i), std::uint16_t(order)};
+          kFamilies[i].has && kFamilies[i].has(order) && info(id).name == name)
+        return id;
     return std::nullopt;
   }
 
  private:
+  /// `has` and `make` are null for a lobe that is in no family.
+  struct Family {
+    const LobeInfo* info;
+    bool (*has)(int order);
+    std::unique_ptr<MemberText> (*make)(int order);
+  };
+  static constexpr auto kFamilies = map_types<Family>(Lobes{}, []<class L>() {
+    if constexpr (LobeFamily<L>)
+      return Family{&L::kInfo, &L::has, &make_member<L>};
+    else
+      return Family{&L::kInfo, nullptr, nullptr};
+  });
+
   template <class L>
-  int add() {
+  int list() {
     constexpr auto kIndex = std::uint8_t(index_of<L>(Lobes{}));
-    if constexpr (LobeFamily<L>) {
-      for (int order = 1; order <= kMaxOrder; ++order) {
-        if (!L::has(order)) continue;
-        std::string formula(L::kInfo.formula);
-        if constexpr (requires { L::member_formula(order); }) formula = L::member_formula(order);
-        const MemberText& text =
-            texts_.emplace_back(L::kInfo, L::member_name(order), formula, order);
-        infos_[{kIndex, std::uint16_t(order)}] = {text.name, text.title, text.formula, text.moments,
-                                                  L::kInfo.source};
-      }
-      for (const int order : L::kOrders) list({kIndex, std::uint16_t(order)});
-    } else {
-      infos_[{kIndex, 0}] = L::kInfo;
-      list({kIndex, 0});
-    }
+    const auto add = [this](LobeId id) {
+      listed.push_back(id);
+      names.push_back(info(id).name);
+    };
+    if constexpr (LobeFamily<L>)
+      for (const int order : L::kOrders) add({kIndex, std::uint16_t(order)});
+    else
+      add({kIndex, 0});
     return 0;
   }
-  void list(LobeId id) {
-    listed.push_back(id);
-    names.push_back(info(id).name);
-  }
 
-  std::map<std::pair<std::uint8_t, std::uint16_t>, LobeInfo> infos_;  // by index and order
-  std::deque<MemberText> texts_;                                      // addresses stay valid
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<std::uint8_t, std::uint16_t>, std::unique_ptr<MemberText>> members_;
 };
 
 const LobeTable& lobe_table() {

@@ -51,6 +51,7 @@ enum class PaperColumn { kNone, kCosine, kCs16 };
 template <class L>
 concept LobeFamily = requires(int order) {
   { L::has(order) } -> std::same_as<bool>;
+  /// Ends in the order's digits for every member that is not in kOrders.
   { L::member_name(order) } -> std::same_as<std::string>;
   /// The order that is compiled in, for speed.
   { L::kUsualOrder } -> std::convertible_to<int>;
