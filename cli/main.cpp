@@ -187,7 +187,8 @@ int run(std::span<char*> typed) {
     std::puts(kNameAndVersion);
     return flushed(ExitCode::kSuccess);
   }
-  keep_to_usual_threads();
+  // render needs no thread for a small picture, and what it calls asks before it starts one.
+  if (first != "render") keep_to_usual_threads();
   CLI::App app{
       "Lobelia renders specular highlights with all normalised models, renders the same\n"
       "scenes with POV-Ray and Blender Cycles, and says how far they are apart.",

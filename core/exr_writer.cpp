@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace {
@@ -21,6 +22,8 @@ namespace {
 constexpr int kBlockRows = 16;  // of the format's ZIP
 /// Packed before the first of them is written; bounds the memory for them.
 constexpr int kBlocksTogether = 64;
+/// So many are packed before oneTBB has started: as many as 128 x 128 pixels have.
+constexpr std::size_t kFloatsOfOneThread = std::size_t{3} << 14;
 
 std::atomic<bool> packs_on_calling_threads{false};
 
@@ -122,6 +125,7 @@ struct ExrWriter::State {
   void write_blocks(int y, int count, int width, const float* rgb) {
     const std::size_t row = 3 * std::size_t(width);
     const int blocks = (count + kBlockRows - 1) / kBlockRows;
+    const bool is_small = std::size_t(count) * row <= kFloatsOfOneThread;
     std::vector<Bytes> packed;
     for (int first = 0; first < blocks; first += kBlocksTogether) {
       packed.resize(std::size_t(std::min(kBlocksTogether, blocks - first)));
@@ -130,11 +134,14 @@ struct ExrWriter::State {
         packed[i] =
             zipped(rgb + row * std::size_t(begin), width, std::min(kBlockRows, count - begin));
       };
-      if (packs_on_calling_threads)
+      if (packs_on_calling_threads || is_small) {
         for (std::size_t i = 0; i < packed.size(); ++i) pack(i);
-      else  // isolated, because another task could wait for what the caller holds
+      } else {
+        keep_to_usual_threads();
+        // Isolated, because another task could wait for what the caller holds.
         oneapi::tbb::this_task_arena::isolate(
             [&] { oneapi::tbb::parallel_for(std::size_t{0}, packed.size(), pack); });
+      }
       for (std::size_t i = 0; i < packed.size(); ++i)
         check(::exr_write_scanline_chunk(context, 0, y + (first + int(i)) * kBlockRows,
                                          packed[i].data(), packed[i].size()));

@@ -46,4 +46,13 @@ int usual_threads() noexcept {
   return count;
 }
 
+void keep_to_usual_threads() {
+  static const auto* const fewer =
+      usual_threads() < oneapi::tbb::info::default_concurrency()
+          ? new oneapi::tbb::global_control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            std::size_t(usual_threads()))
+          : nullptr;
+  static_cast<void>(fewer);
+}
+
 }  // namespace lobelia

@@ -19,12 +19,17 @@ int startable_threads(int wanted) noexcept;
 /// our libraries start then. Looks once.
 int usual_threads() noexcept;
 
+/// Limits oneTBB to usual_threads(), because it ends the process if it cannot start a thread. For good: without the limit
+/// it would start more, even while the process ends. Whatever uses oneTBB without a ThreadLimit calls this before.
+void keep_to_usual_threads();
+
 /// Runs work on `threads` threads, including the calling one; 0 is one for each processor. Fewer if the system does not
 /// allow as many.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads)
       : arena_(threads > 0 ? threads : oneapi::tbb::task_arena::automatic) {
+    keep_to_usual_threads();
     // Asked for more threads than processors, oneTBB warns on stderr and gives fewer.
     if (threads > oneapi::tbb::info::default_concurrency())
       more_.emplace(oneapi::tbb::global_control::max_allowed_parallelism,
@@ -39,14 +44,5 @@ class ThreadLimit {
   std::optional<oneapi::tbb::global_control> more_;
   oneapi::tbb::task_arena arena_;
 };
-
-/// Limits oneTBB to usual_threads(), because it ends the process if it cannot start a thread. For good: without the limit
-/// it would start more, even while the process ends.
-inline void keep_to_usual_threads() {
-  if (usual_threads() >= oneapi::tbb::info::default_concurrency()) return;
-  static const auto* const fewer = new oneapi::tbb::global_control(
-      oneapi::tbb::global_control::max_allowed_parallelism, std::size_t(usual_threads()));
-  static_cast<void>(fewer);
-}
 
 }  // namespace lobelia

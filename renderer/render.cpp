@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -47,29 +48,47 @@ class Render {
     result_.instruction_set = kernels().instruction_set;
     result_.plan_seconds = seconds_since(start);
     started_ = Clock::now();
+    const bool is_fused = options_.allow_fused && FusedRenderer::can_render(scene_, result_.plan);
+    if (is_fused && is_small()) {
+      fused();
+      return finished();
+    }
     ThreadLimit(options_.threads).run([&] {
-      if (options_.allow_fused && FusedRenderer::can_render(scene_, result_.plan)) {
+      if (is_fused) {
         fused();
         return;
       }
       const auto build = Clock::now();
       tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan);
+      workspaces_.emplace();
       result_.build_seconds = seconds_since(build);
       if (options_.target_error || options_.time_limit)
         in_rounds();
       else
         at_once();
+      for (const Workspace& workspace : *workspaces_) result_.work += workspace.work;
       const auto release = Clock::now();
       tiles_.reset();
       result_.build_seconds += seconds_since(release);
     });
+    return finished();
+  }
+
+ private:
+  /// Whether a fused kernel renders it in less time than oneTBB needs to start, so that one thread does all.
+  bool is_small() const {
+    constexpr std::size_t kPixelsOfOneThread = std::size_t{1} << 14;
+    return std::size_t(width()) * std::size_t(height()) *
+               std::max<std::size_t>(1, scene_.spheres.size()) <=
+           kPixelsOfOneThread;
+  }
+
+  RenderResult finished() {
     throw_if_interrupted();
-    for (auto& workspace : workspaces_) result_.work += workspace->work;
     result_.render_seconds = seconds_since(started_);
     return std::move(result_);
   }
 
- private:
   int width() const { return scene_.film.width; }
   int height() const { return scene_.film.height; }
   int all_samples() const {
@@ -86,7 +105,7 @@ class Render {
       if (interrupted()) return;
       const int x = i % across * kTileSide, y = y0 + i / across * kTileSide;
       f(Tile{x, y, std::min(kTileSide, width() - x), std::min(kTileSide, y1 - y)},
-        *workspaces_.local());
+        workspaces_->local());
     });
   }
 
@@ -102,6 +121,12 @@ class Render {
     }
     const int rows = std::min(band_rows(scene_.film, options_.band_pixels), height());
     std::vector<float> buffers[2];
+    if (rows == height()) {
+      buffers[0].resize(std::size_t(3) * std::size_t(width()) * std::size_t(rows));
+      f(0, rows, buffers[0].data());
+      if (!interrupted()) sink_(0, rows, buffers[0].data());
+      return;
+    }
     oneapi::tbb::task_group writing;
     for (int y0 = 0, band = 0; y0 < height() && !interrupted(); y0 += rows, ++band) {
       const int y1 = std::min(height(), y0 + rows);
@@ -120,16 +145,19 @@ class Render {
     const FusedRenderer renderer(scene_, result_.plan);
     std::atomic<int> done{0};
     in_bands([&](int y0, int y1, float* rgb) {
-      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(
-                                    y0, y1, std::size_t(FusedRenderer::rows_of_task(width()))),
-                                [&](const oneapi::tbb::blocked_range<int>& rows) {
-                                  if (interrupted()) return;
-                                  renderer.render_rows(rows.begin(), rows.end(),
-                                                       rgb + std::size_t(3) * std::size_t(width()) *
-                                                                 std::size_t(rows.begin() - y0),
-                                                       !sink_);
-                                  report(double(done += rows.end() - rows.begin()) / height());
-                                });
+      const oneapi::tbb::blocked_range<int> all(y0, y1,
+                                                std::size_t(FusedRenderer::rows_of_task(width())));
+      const auto render_rows = [&](const oneapi::tbb::blocked_range<int>& rows) {
+        if (interrupted()) return;
+        renderer.render_rows(
+            rows.begin(), rows.end(),
+            rgb + std::size_t(3) * std::size_t(width()) * std::size_t(rows.begin() - y0), !sink_);
+        report(double(done += rows.end() - rows.begin()) / height());
+      };
+      if (is_small())
+        render_rows(all);
+      else
+        oneapi::tbb::parallel_for(all, render_rows);
     });
     result_.samples = 1;
     result_.work += renderer.work();
@@ -239,8 +267,8 @@ class Render {
   const RowSink& sink_;
   Clock::time_point started_;
   std::unique_ptr<TileRenderer> tiles_;
-  oneapi::tbb::enumerable_thread_specific<std::unique_ptr<Workspace>> workspaces_{
-      [] { return std::make_unique<Workspace>(); }};
+  /// Optional, because it allocates by oneTBB, whose allocator takes longer to load than a small picture to render.
+  std::optional<oneapi::tbb::enumerable_thread_specific<Workspace>> workspaces_;
   RenderResult result_;
 };
 
