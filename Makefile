@@ -55,7 +55,8 @@ test: ## builds everything and runs the test suite
 	$(npm)
 	$(configure)
 	$(build)
-	ctest --preset "$(PRESET)" --parallel "$(JOBS)"
+	@# One more than processors: some tests wait.
+	ctest --preset "$(PRESET)" --parallel "$$(($(JOBS) + 1))"
 
 sanitize: ## runs the suite in the presets asan and tsan, without engines, browsers and what is slow
 	$(setup) build

@@ -187,7 +187,7 @@ int run(std::span<char*> typed) {
     std::puts(kNameAndVersion);
     return flushed(ExitCode::kSuccess);
   }
-  // render needs no thread for a small picture, and what it calls asks before it starts one.
+  // A small picture is rendered without oneTBB; render() and run_render() call this where they need it.
   if (first != "render") keep_to_usual_threads();
   CLI::App app{
       "Lobelia renders specular highlights with all normalised models, renders the same\n"

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/png_writer.hpp"
+#include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "records/record.hpp"
 #include "renderer/render.hpp"
@@ -120,7 +121,10 @@ void run_render(const RenderArguments& options, ExitCode& code) {
       options.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
   render_options.precision = find_precision(options.precision);
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
-  if (!options.accuracy.empty()) progress.show(0, "choosing");
+  if (!options.accuracy.empty()) {
+    keep_to_usual_threads();  // comparing uses oneTBB, of small pictures too
+    progress.show(0, "choosing");
+  }
   const std::optional<accuracy::Choice> choice = choice_of(scene, options);
   if (choice) choice->apply(render_options);
   const Scene& rendered = choice ? choice->scene : scene;

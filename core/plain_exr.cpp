@@ -10,7 +10,6 @@
 
 #include "core/plain_picture.hpp"
 #include "core/text.hpp"
-#include "core/threads.hpp"
 
 namespace lobelia {
 namespace {
@@ -171,7 +170,6 @@ class PlainExr : public PlainFile {
   bool read(int y, const std::vector<std::size_t>& channels, Image& rows) override {
     float* const values = rows.values().data();
     const int count = rows.height(), blocks = (count + band_rows - 1) / band_rows;
-    if (!on_one_thread_) keep_to_usual_threads();
     oneapi::tbb::enumerable_thread_specific<BlockDecoder> decoders;
     std::atomic<bool> succeeds{true};
     const auto decode = [&](int block) {

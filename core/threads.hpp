@@ -20,7 +20,8 @@ int startable_threads(int wanted) noexcept;
 int usual_threads() noexcept;
 
 /// Limits oneTBB to usual_threads(), because it ends the process if it cannot start a thread. For good: without the limit
-/// it would start more, even while the process ends. Whatever uses oneTBB without a ThreadLimit calls this before.
+/// it would start more, even while the process ends. Called before oneTBB is used: by each command (cli/main.cpp), by the
+/// libraries' functions, and by a ThreadLimit.
 void keep_to_usual_threads();
 
 /// Runs work on `threads` threads, including the calling one; 0 is one for each processor. Fewer if the system does not

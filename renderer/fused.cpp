@@ -48,7 +48,9 @@ std::vector<Sphere> lit_balls(const FusedSphere& prepared, const Scene& scene,
   if (prepared.diffuse) return {};
   std::vector<Sphere> balls;
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    // All lights are added before they are rounded: what is nothing of each may be something of all.
     const double brightest =
+        double(scene.lights.size()) *
         max_component(prepared.lights[l].specular + prepared.lights[l].grazing);
     const auto cap = highlight_reach(prepared.highlight, sphere, prepared.eye,
                                      lamp_of(scene.lights[l]), brightest);

@@ -82,6 +82,7 @@ struct MemberText {
     with_order(family.moments, moments);
     info = {name, name, formula, moments, family.source};
   }
+  MemberText(const MemberText&) = delete;  // info looks at the other members
 };
 template <class L>
 std::unique_ptr<MemberText> make_member(int order) {

@@ -10,12 +10,12 @@
 namespace lobelia {
 namespace {
 
-/// Float32 lobes are exactly 0 below the smallest normal number, 1.18e-38 (lanes-inl.hpp).
-constexpr double kNothing32 = 1e-39;
 /// Rounds to 0 in float32.
 constexpr double kBlack = 0x1p-151;
 /// More than the kernels' s is wrong by, in float32 and where coordinates are below kFarthest radii.
 constexpr double kErrorOfS = 1e-5;
+/// That of the half-vector angle besides, where V + L has the length 1: the sum of opposite vectors has few digits.
+constexpr double kErrorOfHalfVector = 1e-6;
 constexpr double kFarthest = 1e6;
 
 /// An eye or a light, as a sphere of radius 1 sees it.
@@ -68,7 +68,7 @@ std::optional<NormalCap> highlight_reach(const Highlight& highlight, const Spher
     const double nearest = length(lamp.position - sphere.center) - sphere.radius;
     brightest /= nearest * nearest;
   }
-  const double nothing = std::min(kNothing32, kBlack / std::max(brightest, 1.0));
+  const double nothing = kBlack / std::max(brightest, 1.0);
   const double angle = lobe_angle_at(prepare(highlight.lobe, highlight.exponent), nothing);
   const double s = versine(angle) + kErrorOfS;
 
@@ -80,18 +80,18 @@ std::optional<NormalCap> highlight_reach(const Highlight& highlight, const Spher
   // A smaller cap has less parallax, which makes it smaller again. The first step holds for every normal.
   double reach = kRightAngle;
   for (int step = 0; step < 6; ++step) {
-    const double moved =
-        (viewer.parallax(half + reach) + light.parallax(half + reach)) / 2;  // most of g
+    // g is `half`, give or take so much.
+    const double moved = (viewer.parallax(half + reach) + light.parallax(half + reach)) / 2;
     if (!(half + moved < kRightAngle)) return std::nullopt;
+    const double shortest = 2 * std::cos(half + moved),
+                 longest = 2 * std::cos(std::max(0.0, half - moved));  // V + L
     double across, along;  // V + L beside N, and along it, where the cap ends
     if (info(highlight.model).angle == LobeAngle::kReflection) {
-      const double shortest = 2 * std::cos(half + moved);
       across = std::sqrt(2 * s);
       if (!(across < shortest)) return std::nullopt;
       along = std::sqrt(shortest * shortest - across * across);
     } else {
-      const double longest = 2 * std::cos(std::max(0.0, half - moved));
-      const double cosine = std::max(0.0, 1 - s);
+      const double cosine = std::max(0.0, 1 - s - kErrorOfHalfVector / shortest);
       across = longest * std::sqrt(1 - cosine * cosine);
       along = longest * cosine;
     }

@@ -15,7 +15,8 @@ struct NormalCap {
 };
 
 /// A cap that holds every normal at which a light's highlight, seen from `eye`, is more than 0 in a float32 picture.
-/// `brightest` is the most that the lobe's value is multiplied with, without the falloff of a near light.
+/// `brightest` is the most that the lobe's value is multiplied with, without the falloff of a near light, times the
+/// number of lights.
 ///
 /// Empty if it is not known to be smaller than half of the sphere: of wide lobes, of lobes by a formula, which may rise
 /// again, of an eye or a light near the surface, and of a light behind the sphere.
@@ -25,7 +26,8 @@ struct NormalCap {
 /// sin^2(N, H) <= s / (2 cos^2 g).
 ///
 /// V = a e - b N and L = c l - d N, with e and l the directions from the centre, so the normal is even nearer to
-/// a e + c l = (V + L) + (b + d) N than to H. That sum is as far from the axis, the middle of e and l, as a and c differ.
+/// a e + c l = (V + L) + (b + d) N than to H: b + d counts where it is least, at the farthest normal. That sum is as far
+/// from the axis, the middle of e and l, as a and c differ, which is most if one is nearest and the other farthest.
 std::optional<NormalCap> highlight_reach(const Highlight& highlight, const Sphere& sphere, Vec3 eye,
                                          const Lamp& lamp, double brightest);
 

@@ -75,12 +75,12 @@ class Render {
   }
 
  private:
-  /// Whether a fused kernel renders it in less time than oneTBB needs to start, so that one thread does all.
+  /// Whether a fused kernel renders it in about the time that oneTBB needs to start, so that one thread does all.
   bool is_small() const {
-    constexpr std::size_t kPixelsOfOneThread = std::size_t{1} << 14;
+    constexpr std::size_t kSmall = std::size_t{128} * 128;
     return std::size_t(width()) * std::size_t(height()) *
-               std::max<std::size_t>(1, scene_.spheres.size()) <=
-           kPixelsOfOneThread;
+               std::max<std::size_t>(1, scene_.spheres.size() * scene_.lights.size()) <=
+           kSmall;
   }
 
   RenderResult finished() {
@@ -121,7 +121,7 @@ class Render {
     }
     const int rows = std::min(band_rows(scene_.film, options_.band_pixels), height());
     std::vector<float> buffers[2];
-    if (rows == height()) {
+    if (rows == height()) {  // without a task_group, which would start oneTBB
       buffers[0].resize(std::size_t(3) * std::size_t(width()) * std::size_t(rows));
       f(0, rows, buffers[0].data());
       if (!interrupted()) sink_(0, rows, buffers[0].data());

@@ -36,11 +36,11 @@ export async function serve(site) {
 
 export const fileUrl = (site) => pathToFileURL(site).href + '/';
 
-/** SwiftShader draws WebGL where there is no graphics processor. */
+/** SwiftShader draws WebGL where there is no graphics processor; what puts pages together needs none. */
 export const launch = (args = []) => chromium.launch({
   executablePath: '/usr/bin/chromium',
   timeout: kHang,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', ...args],
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--disable-gpu-compositing', ...args],
 });
 
 export async function open(browser, url, options = {}) {

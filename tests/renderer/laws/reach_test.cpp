@@ -136,6 +136,7 @@ TEST(HighlightReach, LeavesThePictureAsItIsBitForBit) {
       Material material;
       material.id = fmt::format("m{}", k);
       material.highlight = sight.highlight;
+      material.specular_reflectance = {1, random.between(0, 1), 0.5};
       if (random.chance(0.3)) material.fresnel = Fresnel::kSchlick;
       scene.materials.push_back(material);
     }
@@ -155,6 +156,29 @@ TEST(HighlightReach, LeavesThePictureAsItIsBitForBit) {
     others += double(truth.work.camera_rays);
   }
   EXPECT_LT(rays, 0.7 * others);
+}
+
+TEST(HighlightReach, LeavesOutNothingThatManyLightsAddUpTo) {
+  Scene scene;
+  scene.film = {128, 128};
+  // From afar, where the bound is tight, at the ring in which the highlight of one light rounds to 0.
+  scene.camera = {{0, 0, 1000}, {std::sin(0.8), 0, std::cos(0.8)}, {0, 1, 0}, 0.002};
+  scene.spheres = {{{0, 0, 0}, 1, 0}};
+  scene.materials.resize(1);
+  scene.materials[0].specular_reflectance = {1, 1, 1};
+  Highlight& highlight = scene.materials[0].highlight;
+  highlight.model = *find_model("blinn_phong_rdf");
+  highlight.exponent = 300;
+  scene.lights.assign(64, DirectionalLight{{0, 0, -1}, {1, 1, 1}});
+  RenderOptions options;
+  options.precision = Precision::kFloat64;
+  const Image ours = render(scene, options).image;
+  options.effects = EffectPolicy::kAll;
+  const Image truth = render(scene, options).image;
+  EXPECT_TRUE(std::ranges::equal(ours.values(), truth.values()));
+  const auto black = std::ranges::count(truth.values(), 0);
+  EXPECT_GT(black, 1000);
+  EXPECT_LT(black, std::ptrdiff_t(truth.values().size()) - 1000);
 }
 
 }  // namespace
