@@ -9,6 +9,7 @@
 
 #include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"
+#include "renderer/scene/contact.hpp"
 #include "tests/renderer/random_scene.hpp"
 
 namespace lobelia {
@@ -188,7 +189,10 @@ const std::vector<Idle>& idle_changes() {
          black.highlight = s.materials.front().highlight;
          s.materials.push_back(black);
          const int material = int(s.materials.size()) - 1;
-         s.planes.push_back({1e8 * normal, normal, material, material, 1});
+         // Beyond what all but one in a million rays along a plane meet. Farther, a light near a surface would lie on it
+         // (renderer/scene/contact.hpp).
+         const double largest_coordinate = 1e12 * closeness(s);
+         s.planes.push_back({1e6 * largest_coordinate * normal, normal, material, material, 1});
          return true;
        }},
   };
