@@ -22,8 +22,6 @@ namespace {
 constexpr int kBlockRows = 16;  // of the format's ZIP
 /// Packed before the first of them is written; bounds the memory for them.
 constexpr int kBlocksTogether = 64;
-/// Packing so many, 128 x 128 pixels, takes less time than starting oneTBB (as is_small() in renderer/render.cpp).
-constexpr std::size_t kFloatsOfOneThread = std::size_t{3} << 14;
 
 std::atomic<bool> packs_on_calling_threads{false};
 
@@ -125,7 +123,7 @@ struct ExrWriter::State {
   void write_blocks(int y, int count, int width, const float* rgb) {
     const std::size_t row = 3 * std::size_t(width);
     const int blocks = (count + kBlockRows - 1) / kBlockRows;
-    const bool is_small = std::size_t(count) * row <= kFloatsOfOneThread;
+    const bool is_small = std::size_t(count) * std::size_t(width) <= kPixelsOfOneThread;
     std::vector<Bytes> packed;
     for (int first = 0; first < blocks; first += kBlocksTogether) {
       packed.resize(std::size_t(std::min(kBlocksTogether, blocks - first)));
@@ -137,7 +135,6 @@ struct ExrWriter::State {
       if (packs_on_calling_threads || is_small) {
         for (std::size_t i = 0; i < packed.size(); ++i) pack(i);
       } else {
-        keep_to_usual_threads();
         // Isolated, because another task could wait for what the caller holds.
         oneapi::tbb::this_task_arena::isolate(
             [&] { oneapi::tbb::parallel_for(std::size_t{0}, packed.size(), pack); });

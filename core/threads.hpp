@@ -6,10 +6,14 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
 namespace lobelia {
+
+/// So few pixels are rendered, or packed for a file, in about the time that oneTBB needs to start: one thread does all.
+inline constexpr std::size_t kPixelsOfOneThread = std::size_t{128} * 128;
 
 /// How many threads could be started just now, at most `wanted`. Starts them and ends them again, because no limit tells
 /// how much of it is left.

@@ -49,44 +49,21 @@ class Render {
     result_.plan_seconds = seconds_since(start);
     started_ = Clock::now();
     const bool is_fused = options_.allow_fused && FusedRenderer::can_render(scene_, result_.plan);
-    if (is_fused && is_small()) {
+    if (is_fused && is_small())
       fused();
-      return finished();
-    }
-    ThreadLimit(options_.threads).run([&] {
-      if (is_fused) {
-        fused();
-        return;
-      }
-      const auto build = Clock::now();
-      tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan);
-      workspaces_.emplace();
-      result_.build_seconds = seconds_since(build);
-      if (options_.target_error || options_.time_limit)
-        in_rounds();
-      else
-        at_once();
-      for (const Workspace& workspace : *workspaces_) result_.work += workspace.work;
-      const auto release = Clock::now();
-      tiles_.reset();
-      result_.build_seconds += seconds_since(release);
-    });
-    return finished();
-  }
-
- private:
-  /// Whether a fused kernel renders it in about the time that oneTBB needs to start, so that one thread does all.
-  bool is_small() const {
-    constexpr std::size_t kSmall = std::size_t{128} * 128;
-    return std::size_t(width()) * std::size_t(height()) *
-               std::max<std::size_t>(1, scene_.spheres.size() * scene_.lights.size()) <=
-           kSmall;
-  }
-
-  RenderResult finished() {
+    else
+      ThreadLimit(options_.threads).run([&] { is_fused ? fused() : in_tiles(); });
     throw_if_interrupted();
     result_.render_seconds = seconds_since(started_);
     return std::move(result_);
+  }
+
+ private:
+  /// For a fused kernel.
+  bool is_small() const {
+    return std::size_t(width()) * std::size_t(height()) *
+               std::max<std::size_t>(1, scene_.spheres.size() * scene_.lights.size()) <=
+           kPixelsOfOneThread;
   }
 
   int width() const { return scene_.film.width; }
@@ -163,6 +140,21 @@ class Render {
     result_.work += renderer.work();
     if (options_.target_error || options_.time_limit)
       result_.stop_reason = "after one sample a pixel: nothing in the scene is random";
+  }
+
+  void in_tiles() {
+    const auto build = Clock::now();
+    tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan);
+    workspaces_.emplace();
+    result_.build_seconds = seconds_since(build);
+    if (options_.target_error || options_.time_limit)
+      in_rounds();
+    else
+      at_once();
+    for (const Workspace& workspace : *workspaces_) result_.work += workspace.work;
+    const auto release = Clock::now();
+    tiles_.reset();
+    result_.build_seconds += seconds_since(release);
   }
 
   /// Every tile with all its samples.

@@ -22,18 +22,18 @@ const megabytes = files.reduce((sum, s) => sum + s.size, 0) / 1e6;
 
 const browser = await launch(), whole = await browser.newBrowserCDPSession();
 const readable = (file, read = readFileSync) => { try { return read(file, 'utf8'); } catch { return ''; } };
-/** From our names of processes to those in /proc, which `lobelia`'s PID namespaces do not change. */
-function namesInProc() {
-  const names = new Map(), ours = readlinkSync('/proc/self/ns/pid');
+/** From a process's id in our PID namespace to that in /proc, which may be of one further out. */
+function idsInProc() {
+  const ids = new Map(), ours = readlinkSync('/proc/self/ns/pid');
   for (const name of readdirSync('/proc').filter((entry) => /^\d+$/.test(entry)))
     if (readable(`/proc/${name}/ns/pid`, readlinkSync) === ours)
-      names.set(Number(/^NSpid:.*\s(\d+)$/m.exec(readable(`/proc/${name}/status`))?.[1]), name);
-  return names;
+      ids.set(Number(/^NSpid:.*\s(\d+)$/m.exec(readable(`/proc/${name}/status`))?.[1]), name);
+  return ids;
 }
 /** Megabytes of the largest page's process, and of all processes. */
 async function memory() {
-  const { processInfo } = await whole.send('SystemInfo.getProcessInfo'), names = namesInProc();
-  const resident = ({ id }) => Number(/^Pss:\s+(\d+)/m.exec(readable(`/proc/${names.get(id)}/smaps_rollup`))?.[1] ?? 0) / 1000;
+  const { processInfo } = await whole.send('SystemInfo.getProcessInfo'), ids = idsInProc();
+  const resident = ({ id }) => Number(/^Pss:\s+(\d+)/m.exec(readable(`/proc/${ids.get(id)}/smaps_rollup`))?.[1] ?? 0) / 1000;
   return { page: Math.max(0, ...processInfo.filter((p) => p.type === 'renderer').map(resident)), all: processInfo.reduce((sum, p) => sum + resident(p), 0) };
 }
 const blank = await open(browser, 'about:blank');

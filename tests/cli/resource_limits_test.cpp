@@ -35,6 +35,14 @@ class ResourceLimits : public ::testing::Test {
   }
   fs::path path(const std::string& name) const { return directory_.path() / name; }
 
+  /// What a shell sets before a program that may have so many threads.
+  std::string with_threads(int threads) const {
+    const fs::path library = path("few_threads.so");  // LD_PRELOAD takes paths apart at blanks
+    if (!fs::exists(library)) fs::create_symlink(LOBELIA_FEW_THREADS, library);
+    return "THREADS_ALLOWED=" + std::to_string(threads) +
+           " ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" + library.string();
+  }
+
   /// Each command after `limit`, a line of shell. Counts those that did their work.
   void expect_work_or_a_sentence(const std::string& limit) {
     struct Command {
@@ -93,25 +101,19 @@ TEST_F(ResourceLimits, OfMemoryEndInWorkOrASentence) {
 }
 
 TEST_F(ResourceLimits, OfThreadsEndInWorkOrASentence) {
-  // LD_PRELOAD takes paths apart at blanks.
-  fs::create_symlink(LOBELIA_FEW_THREADS, path("few_threads.so"));
   for (const int threads : {0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24})
-    expect_work_or_a_sentence(
-        "export THREADS_ALLOWED=" + std::to_string(threads) +
-        " ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" + path("few_threads.so").string());
+    expect_work_or_a_sentence("export " + with_threads(threads));
   EXPECT_GT(done_, 30) << "only pictures and thumbnails need more than the first";
   EXPECT_GT(refused_, 0) << "the limit holds";
 }
 
 TEST_F(ResourceLimits, OfThreadsDoNotKeepASmallPictureFromBeingRendered) {
-  fs::create_symlink(LOBELIA_FEW_THREADS, path("few_threads.so"));
   for (const std::string more : {"", "--png c.png", "--accuracy de2000=1", "--accuracy 1e-3"}) {
-    const auto small =
-        run_shell("THREADS_ALLOWED=1 LD_PRELOAD=" + path("few_threads.so").string() +
-                      " ASAN_OPTIONS=verify_asan_link_order=0 \"$LOBELIA\" render "
-                      "\"$SCENES\"oblique_45.xml --width 64 --height 64 -q -o c.exr " +
-                      more,
-                  directory_.path());
+    const auto small = run_shell(
+        with_threads(1) +
+            " \"$LOBELIA\" render \"$SCENES\"oblique_45.xml --width 64 --height 64 -q -o c.exr " +
+            more,
+        directory_.path());
     EXPECT_EQ(small.exit_code, 0) << more << "\n" << small.output_tail;
     if (more.empty()) {
       EXPECT_EQ(read_file(path("c.exr"), 1 << 20), read_file(path("b.exr"), 1 << 20));

@@ -36,7 +36,7 @@ export async function serve(site) {
 
 export const fileUrl = (site) => pathToFileURL(site).href + '/';
 
-/** SwiftShader draws WebGL where there is no graphics processor; what puts pages together needs none. */
+/** SwiftShader draws WebGL where there is no graphics processor. Pages are put together without it. */
 export const launch = (args = []) => chromium.launch({
   executablePath: '/usr/bin/chromium',
   timeout: kHang,
