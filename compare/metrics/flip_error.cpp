@@ -18,18 +18,18 @@ namespace {
 
 // Columns of a tile: few enough to keep a filter's rows in the first cache, and all planes of both pictures in the
 // second. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
-constexpr int kTileWidth = 256, kTileHeight = 544;
+constexpr int kTileWidth = 128, kTileHeight = 544;
 
 /// The smallest rectangle around pixels.
 struct FlipArea {
   int left = std::numeric_limits<int>::max(), right = 0, top = left, bottom = 0;
 
-  /// Columns [first, end) of row y. Rows are added from the top.
+  /// Columns [first, end) of row y.
   void add(int y, int first, int end) {
     left = std::min(left, first);
     right = std::max(right, end);
     top = std::min(top, y);
-    bottom = y + 1;
+    bottom = std::max(bottom, y + 1);
   }
   FlipTile tile() const {
     return right == 0 ? FlipTile{0, 0, 0, 0} : FlipTile{left, top, right - left, bottom - top};
@@ -45,13 +45,16 @@ class FlipTileRows {
   /// The colours of a row of the picture, to be filtered along.
   FlipColours colours(int y);
   /// Its light, with `radius` pixels before the tile.
-  std::span<const float> light() const { return {rgb_, 3 * extended_}; }
+  std::span<const float> light() const {
+    return std::span(rgb_, 3 * extended_).subspan(3 * (beside_ - std::size_t(filters_.radius())));
+  }
   const FlipRows& filtered() const { return rows_; }
 
  private:
   const DisplayLight& shown_;
   const FlipFilters& filters_;
-  int first_;  ///< column of the picture at which a row of input begins
+  std::size_t beside_;  ///< pixels of input before the tile, and after it
+  int first_;           ///< column of the picture at which a row of input begins
   std::size_t extended_;
   AlignedFloats rgb_memory_;
   std::unique_ptr<double[], AlignedFree> memory_;
@@ -62,11 +65,13 @@ class FlipTileRows {
 
 FlipTileRows::FlipTileRows(const DisplayLight& shown, const FlipFilters& filters,
                            const FlipTile& tile)
-    : shown_(shown), filters_(filters), first_(tile.left - filters.radius()) {
-  const std::size_t padded = flip_padded(std::size_t(tile.width)),
-                    radius = std::size_t(filters.radius());
-  extended_ = flip_padded(padded + 2 * radius);
-  rows_.kept = 2 * radius + kFlipBand;
+    : shown_(shown),
+      filters_(filters),
+      beside_(flip_padded(std::size_t(filters.radius()) + 1)),
+      first_(tile.left - int(beside_)) {
+  const std::size_t padded = flip_padded(std::size_t(tile.width));
+  extended_ = padded + 2 * beside_;
+  rows_.kept = 2 * std::size_t(filters.radius()) + kFlipBand;
   rows_.blocks = padded / kFlipBlock;
   rgb_memory_ = aligned_floats(3 * extended_);
   rgb_ = rgb_memory_.get();
@@ -94,27 +99,29 @@ FlipColours FlipTileRows::colours(int y) {
     const float* next = shown_.image().pixel(first_ + left, y + 2).data();
     for (int i = 0; i < 3 * (right - left); i += 16) __builtin_prefetch(next + i);
   }
-  const int radius = filters_.radius();
-  return {in_.y + radius, in_.cx + radius, in_.cz + radius};
+  return {in_.y + beside_, in_.cx + beside_, in_.cz + beside_};
 }
 
-/// Where the rows of a tile differ: for each block of columns the last row that has a difference within the filters' reach.
+/// Where the rows of a tile may differ: for each block of columns the row before which they do within the filters' reach. A
+/// row that differs stands for a band, so that few are compared.
 class FlipDifferences {
  public:
   FlipDifferences(std::size_t blocks, int radius)
-      : last_(blocks, std::numeric_limits<int>::min() / 2), radius_(radius) {}
+      : end_(blocks, std::numeric_limits<int>::min() / 2), radius_(radius) {}
 
+  /// Rows are added from the top.
   void add(int y, std::span<const float> a, std::span<const float> b) {
     const std::size_t block = 3 * kFlipBlock, reach = block + 6 * std::size_t(radius_);
-    for (std::size_t i = 0; i < last_.size(); ++i)
-      if (std::memcmp(a.data() + i * block, b.data() + i * block, reach * sizeof(float)) != 0)
-        last_[i] = y;
+    for (std::size_t i = 0; i < end_.size(); ++i)
+      if (y >= end_[i] &&
+          std::memcmp(a.data() + i * block, b.data() + i * block, reach * sizeof(float)) != 0)
+        end_[i] = y + int(kFlipBand);
   }
-  /// Whether rows from y on have an error in the block. Rows within reach of them have been added.
-  bool reach(std::size_t block, int y) const { return last_[block] >= y - radius_; }
+  /// Whether rows from y on may have an error in the block. Rows within reach of them have been added.
+  bool reach(std::size_t block, int y) const { return end_[block] > y - radius_; }
 
  private:
-  std::vector<int> last_;
+  std::vector<int> end_;
   int radius_;
 };
 
@@ -140,22 +147,34 @@ FlipTile differing_part(const Image& a, const Image& b, const FlipTile& tile, in
             right = std::min(a.width(), tile.left + tile.width + radius),
             bottom = std::min(a.height(), tile.top + tile.height + radius);
   FlipArea area;
-  const auto row = [](const Image& image, int y, int first, int end) {
-    const std::size_t start = std::size_t(y) * std::size_t(image.width());
-    return image.values().subspan(3 * (start + std::size_t(first)), 3 * std::size_t(end - first));
-  };
-  for (int y = top; y < bottom; ++y) {
-    const std::span<const float> of_a = row(a, y, left, right), of_b = row(b, y, left, right);
+  // Adds what differs in columns [first, end) of a row.
+  const auto add = [&](int y, int first, int end) {
+    if (first == end) return;
+    const auto values = [=](const Image& image) {
+      return image.values().subspan(
+          3 * (std::size_t(y) * std::size_t(image.width()) + std::size_t(first)),
+          3 * std::size_t(end - first));
+    };
+    const std::span<const float> of_a = values(a), of_b = values(b);
     looked_at_row(of_a.size_bytes());
     looked_at_row(of_b.size_bytes());
-    if (std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0) continue;
-    const auto first = std::ranges::mismatch(of_a, of_b).in1;
-    if (first == of_a.end()) continue;
+    if (std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0) return;
+    const auto from = std::ranges::mismatch(of_a, of_b).in1;
+    if (from == of_a.end()) return;
     const auto last = std::mismatch(of_a.rbegin(), of_a.rend(), of_b.rbegin()).first;
-    area.add(y, left + int(first - of_a.begin()) / 3, left + int(of_a.rend() - last + 2) / 3);
+    area.add(y, first + int(from - of_a.begin()) / 3, first + int(of_a.rend() - last + 2) / 3);
+  };
+  // Once its first and last row are known, the area can only become wider.
+  int y = top, end = bottom;
+  for (; y < bottom && area.right == 0; ++y) add(y, left, right);
+  for (; y < end && area.bottom <= y; --end) add(end - 1, left, right);
+  for (; y < end; ++y) {
+    add(y, left, area.left);
+    add(y, area.right, right);
   }
   if (area.right == 0) return {tile.left, tile.top, 0, 0};
-  const int x = std::max(area.left - radius, tile.left), y = std::max(area.top - radius, tile.top);
+  const int x = std::max(area.left - radius, tile.left);
+  y = std::max(area.top - radius, tile.top);
   return {x, y, std::min(area.right + radius, tile.left + tile.width) - x,
           std::min(area.bottom + radius, tile.top + tile.height) - y};
 }
@@ -214,10 +233,11 @@ PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
     const FlipTile tile{area.left + x, area.top + y, std::min(kTileWidth, area.width - x),
                         std::min(kTileHeight, area.height - y)};
     const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
-    std::vector<float> values(padded * std::size_t(tile.height));
-    values_of(tile, values);
+    const std::size_t count = padded * std::size_t(tile.height);
+    const auto values = std::make_unique_for_overwrite<float[]>(count);
+    values_of(tile, {values.get(), count});
     for (int row = 0; row < tile.height; ++row) {
-      std::copy_n(values.data() + padded * std::size_t(row), columns,
+      std::copy_n(values.get() + padded * std::size_t(row), columns,
                   map.begin() + std::ptrdiff_t(tile.top + row) * width + tile.left);
       looked_at_row(columns * sizeof(float));
     }

@@ -1,6 +1,7 @@
 // FLIP's filters along rows and down columns, in float64. Compiled once for each instruction set, like the file that
 // includes it.
 #include <hwy/highway.h>
+#include <utility>
 
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_kernels.hpp"
@@ -28,138 +29,201 @@ HWY_INLINE void keep_in_registers([[maybe_unused]] SampleLanes& a,
 #endif
 }
 
-/// Filters a few pixels of a row of both pictures along, by kEven even filters and kOdd odd ones. Pairs of samples with the
-/// same tap are added first, which halves the products. A load of a tap costs as much as one of samples, so it serves
-/// kVectors registers of each picture.
-template <std::size_t kVectors, std::size_t kEven, std::size_t kOdd>
-struct AlongSums {
-  SampleLanes sums[kEven + kOdd][2 * kVectors];
+/// What a register of pixels of a row needs of its neighbours for a round of taps from k on, at least 0.
+class AlongSamples {
+ public:
+  static constexpr std::size_t kRound = 8;
 
-  static HWY_INLINE const double* at(const double* const (&in)[2], std::size_t v) {
-    return in[v / kVectors] + v % kVectors * hn::Lanes(Samples());
-  }
-  /// `in` is the first pixel.
-  HWY_INLINE void begin(const double* const (&in)[2], const double* const* taps) {
+  /// `at` is the register's first pixel, k a multiple of kRound.
+  HWY_INLINE AlongSamples(const double* at, std::size_t k) : before_(at - k), after_(at + k) {
+#if HWY_TARGET <= HWY_AVX3
     const Samples d;
-    for (std::size_t v = 0; v < 2 * kVectors; ++v) {
-      const SampleLanes middle = hn::LoadU(d, at(in, v));
+    near_before_ = hn::Load(d, before_), far_before_ = hn::Load(d, before_ - kRound);
+    near_after_ = hn::Load(d, after_), far_after_ = hn::Load(d, after_ + kRound);
+#endif
+  }
+  /// The samples at the tap k + kTap.
+  template <std::size_t kTap>
+  HWY_INLINE void get(SampleLanes& before, SampleLanes& after) const {
+#if HWY_TARGET <= HWY_AVX3
+    if constexpr (kTap == 0)
+      before = near_before_, after = near_after_;
+    else
+      before = shifted<kRound - kTap>(far_before_, near_before_),
+      after = shifted<kTap>(near_after_, far_after_);
+#else
+    const Samples d;
+    before = hn::LoadU(d, before_ - kTap), after = hn::LoadU(d, after_ + kTap);
+#endif
+  }
+
+ private:
+  const double *before_, *after_;
+#if HWY_TARGET <= HWY_AVX3
+  // Almost every load of a register that is as long as a line of the cache reads two lines. To shift two registers takes
+  // half the time.
+  SampleLanes near_before_, far_before_, near_after_, far_after_;
+
+  template <std::size_t kShift>
+  static HWY_INLINE SampleLanes shifted(SampleLanes low, SampleLanes high) {
+    return SampleLanes{_mm512_castsi512_pd(_mm512_alignr_epi64(
+        _mm512_castpd_si512(high.raw), _mm512_castpd_si512(low.raw), int(kShift)))};
+  }
+#endif
+};
+
+/// Filters a register of pixels of a row of both pictures along, by kEven even filters and kOdd odd ones. Pairs of samples
+/// with the same tap are added first, which halves the products.
+template <std::size_t kEven, std::size_t kOdd>
+struct AlongSums {
+  SampleLanes sums[kEven + kOdd][2];
+
+  /// `a` and `b` are the first pixel in each picture. Each filter has `count` taps.
+  HWY_INLINE void filter(const double* a, const double* b, const double* const* taps,
+                         std::size_t count) {
+    const Samples d;
+    const SampleLanes middle[] = {hn::Load(d, a), hn::Load(d, b)};
+    for (std::size_t v = 0; v < 2; ++v)
       for (std::size_t i = 0; i < kEven + kOdd; ++i)
-        sums[i][v] = i < kEven ? hn::Mul(hn::Set(d, taps[i][0]), middle) : hn::Zero(d);
-    }
+        sums[i][v] = i < kEven ? hn::Mul(hn::Set(d, taps[i][0]), middle[v]) : hn::Zero(d);
+    add<1>({{a, 0}, {b, 0}}, 0, taps, count);
+    for (std::size_t k = AlongSamples::kRound; k < count; k += AlongSamples::kRound)
+      add<0>({{a, k}, {b, k}}, k, taps, count);
   }
-  /// Adds the tap k, on both sides, of filters first ... end - 1.
-  template <std::size_t kFirst = 0, std::size_t kEnd = kEven + kOdd>
-  HWY_INLINE void add(const double* const (&in)[2], std::size_t k, const double* const* taps) {
+  /// Adds the taps from k + kTap to the end of the round, on both sides, as far as there are any.
+  template <std::size_t kTap>
+  HWY_INLINE void add(const AlongSamples (&in)[2], std::size_t k, const double* const* taps,
+                      std::size_t count) {
+    if (k + kTap >= count) return;
     const Samples d;
-    SampleLanes tap[kEnd];
-    for (std::size_t i = kFirst; i < kEnd; ++i) tap[i] = hn::Set(d, taps[i][k]);
-    for (std::size_t v = 0; v < 2 * kVectors; ++v) {
-      SampleLanes before = hn::LoadU(d, at(in, v) - k), after = hn::LoadU(d, at(in, v) + k);
-      if constexpr (kEnd > kEven) keep_in_registers(before, after);
-      for (std::size_t i = kFirst; i < kEnd; ++i) {
+    for (std::size_t v = 0; v < 2; ++v) {
+      SampleLanes before, after;
+      in[v].template get<kTap>(before, after);
+      if constexpr (kOdd > 0) keep_in_registers(before, after);
+      for (std::size_t i = 0; i < kEven + kOdd; ++i) {
         const SampleLanes pair = i < kEven ? hn::Add(after, before) : hn::Sub(after, before);
-        sums[i][v] = hn::MulAdd(tap[i], pair, sums[i][v]);
+        sums[i][v] = hn::MulAdd(hn::Set(d, taps[i][k + kTap]), pair, sums[i][v]);
       }
     }
+    if constexpr (kTap + 1 < AlongSamples::kRound) add<kTap + 1>(in, k, taps, count);
   }
   HWY_INLINE void store(std::size_t i, double* a, double* b) const {
-    for (std::size_t v = 0; v < 2 * kVectors; ++v)
-      hn::Store(sums[i][v], Samples(),
-                (v < kVectors ? a : b) + v % kVectors * hn::Lanes(Samples()));
+    hn::Store(sums[i][0], Samples(), a);
+    hn::Store(sums[i][1], Samples(), b);
   }
 };
 
 void filter_along_lanes(const FlipFilters& filters, const FlipColours& a, const FlipColours& b,
                         const FlipRows& out_a, const FlipRows& out_b, std::size_t slot) {
-  // As many sums as there are registers for.
-  constexpr std::size_t kVectors = HWY_TARGET <= HWY_AVX3 ? 2 : 1;
-  const std::size_t at_once = kVectors * hn::Lanes(Samples());
-  const std::size_t luminance = filters.luminance.size(), features = filters.edge.size(),
-                    both = std::min(luminance, features), red_green = filters.red_green.size(),
-                    blue_yellow = filters.blue_yellow_1.size();
   const double *const of_y[] = {filters.luminance.data(), filters.gaussian.data(),
                                 filters.point.data(), filters.edge.data()},
                       *const of_cx[] = {filters.red_green.data()},
                       *const of_cz[] = {filters.blue_yellow_1.data(), filters.blue_yellow_2.data()};
-  for (std::size_t i = 0; i < out_a.blocks * kFlipBlock; i += at_once) {
+  for (std::size_t i = 0; i < out_a.blocks * kFlipBlock; i += hn::Lanes(Samples())) {
     const auto store = [&](const auto& sums, std::size_t filter, FlipPlane plane) HWY_ATTR {
       const std::size_t to = slot * kFlipBlock + i % kFlipBlock;
       sums.store(filter, out_a.block(plane, i / kFlipBlock) + to,
                  out_b.block(plane, i / kFlipBlock) + to);
     };
-    const double *const in_y[] = {a.y + i, b.y + i}, *const in_cx[] = {a.cx + i, b.cx + i},
-                        *const in_cz[] = {a.cz + i, b.cz + i};
-    AlongSums<kVectors, 3, 1> y;
-    y.begin(in_y, of_y);
-    for (std::size_t k = 1; k < both; ++k) y.add(in_y, k, of_y);
-    for (std::size_t k = both; k < features; ++k) y.template add<1>(in_y, k, of_y);
-    for (std::size_t k = both; k < luminance; ++k) y.template add<0, 1>(in_y, k, of_y);
+    AlongSums<3, 1> y;
+    y.filter(a.y + i, b.y + i, of_y, filters.edge.size());
     store(y, 0, kFlipY);
     store(y, 1, kFlipSmooth);
     store(y, 2, kFlipPoint);
     store(y, 3, kFlipEdge);
-    AlongSums<kVectors, 1, 0> cx;
-    cx.begin(in_cx, of_cx);
-    for (std::size_t k = 1; k < red_green; ++k) cx.add(in_cx, k, of_cx);
+    AlongSums<1, 0> cx;
+    cx.filter(a.cx + i, b.cx + i, of_cx, filters.red_green.size());
     store(cx, 0, kFlipCx);
-    AlongSums<kVectors, 2, 0> cz;
-    cz.begin(in_cz, of_cz);
-    for (std::size_t k = 1; k < blue_yellow; ++k) cz.add(in_cz, k, of_cz);
+    AlongSums<2, 0> cz;
+    cz.filter(a.cz + i, b.cz + i, of_cz, filters.blue_yellow_1.size());
     store(cz, 0, kFlipCz1);
     store(cz, 1, kFlipCz2);
   }
 }
 
-/// Filters one register of kRows rows of a block down, by an even filter, and with kOdd also by an odd one. The samples of a
-/// row at a tap are those of its neighbour at the next tap, so that each is loaded once for all rows.
-template <std::size_t kRows, bool kOdd, class Write>
-HWY_INLINE void filter_rows(const FlipTaps& even_taps, const FlipTaps& odd_taps, const double* base,
-                            const std::size_t* offsets, Write write) {
-  const Samples d;
-  const auto at = [=](std::ptrdiff_t row) HWY_ATTR { return hn::Load(d, base + offsets[row]); };
-  // below[j] is the sample k rows below row j, above[j] that k rows above it.
+/// One register of rows of a block, filtered down by an even filter, and with kOdd also by an odd one. The samples of a row
+/// at a tap are those of its neighbour at the next tap, so that each is loaded once for all rows.
+template <bool kOdd, std::size_t... kRow>
+struct DownSums {
+  static constexpr std::size_t kRows = sizeof...(kRow);
+
+  const double *even_taps, *odd_taps;
+  std::size_t count;  ///< of taps
+  const double* base;
+  const std::size_t* offsets;  ///< row j is at base + offsets[j]
+  // Of each row, and of those k rows below and above it: of row r at [r % kRows]. So nothing moves from tap to tap.
   SampleLanes even[kRows], odd[kRows], below[kRows], above[kRows];
-  auto k = std::ptrdiff_t(even_taps.size()) - 1;
-  for (std::size_t j = 0; j < kRows; ++j) {
-    even[j] = odd[j] = hn::Zero(d);
-    below[j] = at(std::ptrdiff_t(j) + k);
-    above[j] = at(std::ptrdiff_t(j) - k);
+
+  HWY_INLINE SampleLanes at(std::ptrdiff_t row) const {
+    return hn::Load(Samples(), base + offsets[row]);
   }
-  const double *const even_tap = even_taps.data(), *const odd_tap = odd_taps.data();
-  for (; k > 0; --k) {
-    const SampleLanes tap = hn::Set(d, even_tap[k]), tap_of_odd = hn::Set(d, odd_tap[k]);
-    for (std::size_t j = 0; j < kRows; ++j) {
-      even[j] = hn::MulAdd(tap, hn::Add(below[j], above[j]), even[j]);
-      if constexpr (kOdd) odd[j] = hn::MulAdd(tap_of_odd, hn::Sub(below[j], above[j]), odd[j]);
+  HWY_INLINE void filter() {
+    const Samples d;
+    ((below[kRow] = above[kRow] = at(kRow)), ...);
+    ((even[kRow] = hn::Mul(hn::Set(d, even_taps[0]), below[kRow])), ...);
+    ((odd[kRow] = hn::Zero(d)), ...);
+    for (std::size_t k = 1; k < count; k += kRows) add<1>(k);
+  }
+  /// Adds kLeft taps from k on, as far as there are any; kTurn is k modulo kRows.
+  template <std::size_t kTurn, std::size_t kLeft = kRows>
+  HWY_INLINE void add(std::size_t k) {
+    const Samples d;
+    below[(kTurn + kRows - 1) % kRows] = at(std::ptrdiff_t(kRows - 1 + k));
+    above[(kRows - kTurn) % kRows] = at(-std::ptrdiff_t(k));
+    const SampleLanes tap = hn::Set(d, even_taps[k]);
+    ((even[kRow] = hn::MulAdd(
+          tap, hn::Add(below[(kRow + kTurn) % kRows], above[(kRow + kRows - kTurn) % kRows]),
+          even[kRow])),
+     ...);
+    if constexpr (kOdd) {
+      const SampleLanes odd_tap = hn::Set(d, odd_taps[k]);
+      ((odd[kRow] = hn::MulAdd(
+            odd_tap, hn::Sub(below[(kRow + kTurn) % kRows], above[(kRow + kRows - kTurn) % kRows]),
+            odd[kRow])),
+       ...);
     }
-    for (std::size_t j = kRows - 1; j > 0; --j) below[j] = below[j - 1];
-    below[0] = at(k - 1);
-    for (std::size_t j = 0; j + 1 < kRows; ++j) above[j] = above[j + 1];
-    above[kRows - 1] = at(std::ptrdiff_t(kRows) - k);
+    if (k + 1 >= count) return;
+    if constexpr (kLeft > 1) add<(kTurn + 1) % kRows, kLeft - 1>(k + 1);
   }
-  const SampleLanes middle = hn::Set(d, even_tap[0]);
-  for (std::size_t j = 0; j < kRows; ++j) write(j, hn::MulAdd(middle, below[j], even[j]), odd[j]);
+};
+
+template <bool kOdd, class Write, std::size_t... kRow>
+HWY_INLINE void filter_rows(const FlipTaps& even_taps, const FlipTaps& odd_taps, const double* base,
+                            const std::size_t* offsets, const Write& write,
+                            std::index_sequence<kRow...>) {
+  DownSums<kOdd, kRow...> sums;
+  sums.even_taps = even_taps.data();
+  sums.odd_taps = odd_taps.data();
+  sums.count = even_taps.size();
+  sums.base = base;
+  sums.offsets = offsets;
+  sums.filter();
+  (write(kRow, sums.even[kRow], sums.odd[kRow]), ...);
 }
 
 /// Filters a block down, plane by plane, so that the rows of one stay in the first cache.
 HWY_INLINE void filter_down(const FlipFilters& filters, const FlipRows& in, std::size_t block,
                             const FlipTapsDown& taps, FlipFiltered& out) {
   // As many rows as there are registers for.
-  constexpr std::size_t kRows = HWY_TARGET <= HWY_AVX3 ? 8 : 4;
-  static_assert(kFlipBand % kRows == 0);
+  constexpr std::size_t kRows = HWY_TARGET <= HWY_AVX3 ? 8 : 4,
+                        kRowsOfTwo = HWY_TARGET <= HWY_AVX3 ? 4 : 2;
+  static_assert(kFlipBand % kRows == 0 && kFlipBand % kRowsOfTwo == 0);
   const Samples d;
-  const auto for_plane = [&](FlipPlane plane, auto work) HWY_ATTR {
-    for (std::size_t row = 0; row < kFlipBand; row += kRows)
+  const auto for_plane = [&](FlipPlane plane, std::size_t rows, auto work) HWY_ATTR {
+    for (std::size_t row = 0; row < kFlipBand; row += rows)
       for (std::size_t column = 0; column < kFlipBlock; column += hn::Lanes(d))
         work(in.block(plane, block) + column, taps.offsets + row + taps.radius, row, column);
   };
   const auto filter = [&](FlipPlane plane, const FlipTaps& by, FlipFiltered::Values& to) HWY_ATTR {
-    for_plane(plane, [&](const double* base, const std::size_t* offsets, std::size_t row,
-                         std::size_t column) HWY_ATTR {
-      filter_rows<kRows, false>(by, by, base, offsets,
-                                [&](std::size_t next, auto sum, auto)
-                                    HWY_ATTR { hn::Store(sum, d, to[row + next] + column); });
-    });
+    for_plane(plane, kRows,
+              [&](const double* base, const std::size_t* offsets, std::size_t row,
+                  std::size_t column) HWY_ATTR {
+                filter_rows<false>(
+                    by, by, base, offsets,
+                    [&](std::size_t next, auto sum, auto)
+                        HWY_ATTR { hn::Store(sum, d, to[row + next] + column); },
+                    std::make_index_sequence<kRows>());
+              });
   };
   filter(kFlipY, filters.luminance, out.y);
   filter(kFlipCx, filters.red_green, out.cx);
@@ -167,14 +231,17 @@ HWY_INLINE void filter_down(const FlipFilters& filters, const FlipRows& in, std:
   filter(kFlipCz2, filters.blue_yellow_2, out.cz_2);
   filter(kFlipEdge, filters.gaussian, out.dx);
   filter(kFlipPoint, filters.gaussian, out.ddx);
-  for_plane(kFlipSmooth, [&](const double* base, const std::size_t* offsets, std::size_t row,
-                             std::size_t column) HWY_ATTR {
-    filter_rows<kRows, true>(filters.point, filters.edge, base, offsets,
-                             [&](std::size_t next, auto even, auto odd) HWY_ATTR {
-                               hn::Store(even, d, out.ddy[row + next] + column);
-                               hn::Store(odd, d, out.dy[row + next] + column);
-                             });
-  });
+  for_plane(kFlipSmooth, kRowsOfTwo,
+            [&](const double* base, const std::size_t* offsets, std::size_t row, std::size_t column)
+                HWY_ATTR {
+                  filter_rows<true>(
+                      filters.point, filters.edge, base, offsets,
+                      [&](std::size_t next, auto even, auto odd) HWY_ATTR {
+                        hn::Store(even, d, out.ddy[row + next] + column);
+                        hn::Store(odd, d, out.dy[row + next] + column);
+                      },
+                      std::make_index_sequence<kRowsOfTwo>());
+                });
 }
 
 void block_logs_lanes(const FlipFilters& filters, const FlipRows& a, const FlipRows& b,

@@ -58,12 +58,20 @@ void expect_accurate(const std::string& name, const Image& a, const Image& b,
   EXPECT_LT(exchanged, kBound) << name << ", exchanged";
 }
 
+/// Numbers from a range, the same in every run.
+class Random {
+ public:
+  double operator()(double from, double to) {
+    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+    return from + (to - from) * double(state_ >> 40) / double(1 << 24);
+  }
+
+ private:
+  std::uint64_t state_ = 7;
+};
+
 TEST(FlipAccuracy, IsAMillionthOnRandomPicturesAtRandomDistances) {
-  std::uint64_t state = 7;
-  const auto random = [&state](double from, double to) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return from + (to - from) * double(state >> 40) / double(1 << 24);
-  };
+  Random random;
   for (int round = 0; round < 40; ++round) {
     const int width = int(random(1, 50)), height = int(random(1, 40));
     const double distance = std::exp(random(std::log(8.0), std::log(130.0)));
@@ -106,6 +114,27 @@ TEST(FlipAccuracy, IsAMillionthOnFlatPictures) {
     for (const float above : {0.0f, 2e-9f, 1e-7f, 1e-3f})
       expect_accurate("about the knee", flat(knee - below, knee - below, knee - below),
                       flat(knee + above, knee + above, knee + above));
+}
+
+// What is far from every difference is not filtered: pictures of a few tiles, bands of rows and blocks of columns.
+TEST(FlipAccuracy, IsAMillionthOnPicturesThatDifferInAFewPlaces) {
+  Random random;
+  for (int round = 0; round < 24; ++round) {
+    const int width = int(random(1, round % 2 == 0 ? 100 : 400)), height = int(random(1, 80));
+    const double distance = std::exp(random(std::log(8.0), std::log(40.0)));
+    const Image a = fixtures::noise(width, height, std::uint64_t(round), 1.1f);
+    Image b = a;
+    for (int places = int(random(1, 7)); places > 0; --places) {
+      const int left = int(random(0, width)), top = int(random(0, height));
+      const int right = std::min(width, left + int(random(1, 20))),
+                bottom = std::min(height, top + int(random(1, 12)));
+      for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) b.pixel(x, y)[std::size_t(random(0, 3))] += 0.1f;
+    }
+    expect_accurate(
+        std::to_string(width) + " x " + std::to_string(height) + ", round " + std::to_string(round),
+        a, b, distance);
+  }
 }
 
 TEST(FlipAccuracy, IsExactlyZeroForEqualPictures) {
