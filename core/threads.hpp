@@ -13,7 +13,7 @@
 namespace lobelia {
 
 /// So few pixels are rendered, or packed for a file, in about the time that oneTBB needs to start: one thread does all.
-inline constexpr std::size_t kPixelsOfOneThread = std::size_t{128} * 128;
+inline constexpr std::size_t kPixelsOfOneThread = std::size_t{256} * 256;
 
 /// How many threads could be started just now, at most `wanted`. Starts them and ends them again, because no limit tells
 /// how much of it is left.

@@ -97,7 +97,7 @@ class Render {
       return;
     }
     const int rows = std::min(band_rows(scene_.film, options_.band_pixels), height());
-    std::vector<float> buffers[2];
+    std::vector<float, ZeroedMemory<float>> buffers[2];
     if (rows == height()) {  // without a task_group, which would start oneTBB
       buffers[0].resize(std::size_t(3) * std::size_t(width()) * std::size_t(rows));
       f(0, rows, buffers[0].data());
@@ -107,7 +107,7 @@ class Render {
     oneapi::tbb::task_group writing;
     for (int y0 = 0, band = 0; y0 < height() && !interrupted(); y0 += rows, ++band) {
       const int y1 = std::min(height(), y0 + rows);
-      std::vector<float>& buffer = buffers[band % 2];
+      std::vector<float, ZeroedMemory<float>>& buffer = buffers[band % 2];
       buffer.resize(std::size_t(3) * std::size_t(width()) * std::size_t(y1 - y0));
       f(y0, y1, buffer.data());
       if (interrupted()) break;
