@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/image.hpp"
 #include "core/scratch_memory.hpp"
 
 namespace lobelia {
@@ -30,7 +31,8 @@ std::size_t rank_of(double share, std::size_t count) {
   return std::max<std::size_t>(std::size_t(std::ceil(share * double(count))), 1) - 1;
 }
 
-using Counts = std::vector<std::uint32_t>;
+/// A quarter of a MiB for each thread and pass: its pages come at once.
+using Counts = std::vector<std::uint32_t, ZeroedMemory<std::uint32_t>>;
 
 /// On many threads, visit(counts, number) for each value of the region. Returns the sums of all threads' `size` counts.
 template <class Visit>
