@@ -18,11 +18,11 @@ namespace lobelia {
 inline constexpr int kMaxImageSide = 32768;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 
-/// Zero because the system gives it so, in large pages where it has them. Throws std::bad_alloc.
+/// Zero because the system gives it so. From 64 KiB on its pages come at once; from 4 MiB on they are large where the system
+/// has such, and the first to write one is the thread that renders it. Throws std::bad_alloc.
 ///
-/// The first to write a page is the thread that renders it. A first write costs up to 2 us in a virtual machine, and a
-/// picture of 12 MB has 3000 pages of the usual size, but six large ones: usual pages would take three times as long as
-/// rendering the picture (`make bench-details`).
+/// A first write costs 2 to 13 us in a virtual machine, and a picture of 12 MB has 3000 usual pages, but six large ones:
+/// usual pages would take three times as long as rendering the picture, or longer (`make bench-details`).
 void* allocate_zeroed(std::size_t bytes);
 void free_zeroed(void* memory, std::size_t bytes);
 

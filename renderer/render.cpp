@@ -107,7 +107,7 @@ class Render {
     oneapi::tbb::task_group writing;
     for (int y0 = 0, band = 0; y0 < height() && !interrupted(); y0 += rows, ++band) {
       const int y1 = std::min(height(), y0 + rows);
-      std::vector<float, ZeroedMemory<float>>& buffer = buffers[band % 2];
+      auto& buffer = buffers[band % 2];
       buffer.resize(std::size_t(3) * std::size_t(width()) * std::size_t(y1 - y0));
       f(y0, y1, buffer.data());
       if (interrupted()) break;

@@ -17,8 +17,9 @@ namespace lobelia {
 namespace {
 
 // Columns of a tile: few enough to keep a filter's rows in the first cache, and all planes of both pictures in the
-// second. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
-constexpr int kTileWidth = 128, kTileHeight = 544;
+// second. A large picture may be in a file, and then every row of a tile brings the pages around it: fewer tiles, fewer
+// pages. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
+constexpr int kTileWidth = 128, kLargeTileWidth = 256, kTileHeight = 544;
 
 /// The smallest rectangle around pixels.
 struct FlipArea {
@@ -44,7 +45,7 @@ class FlipTileRows {
 
   /// The colours of a row of the picture, to be filtered along.
   FlipColours colours(int y);
-  /// Its light, with `radius` pixels before the tile.
+  /// Its light, with `radius` pixels before the tile and as many after it.
   std::span<const float> light() const {
     return std::span(rgb_, 3 * extended_).subspan(3 * (beside_ - std::size_t(filters_.radius())));
   }
@@ -102,8 +103,8 @@ FlipColours FlipTileRows::colours(int y) {
   return {in_.y + beside_, in_.cx + beside_, in_.cz + beside_};
 }
 
-/// Where the rows of a tile may differ: for each block of columns the row before which they do within the filters' reach. A
-/// row that differs stands for a band, so that few are compared.
+/// Where the rows of a tile may differ: for each block of columns the end of the last band of rows in which they may, within
+/// the filters' reach. A row that differs stands for a band, so that few are compared.
 class FlipDifferences {
  public:
   FlipDifferences(std::size_t blocks, int radius)
@@ -149,28 +150,36 @@ FlipTile differing_part(const Image& a, const Image& b, const FlipTile& tile, in
   FlipArea area;
   // Adds what differs in columns [first, end) of a row.
   const auto add = [&](int y, int first, int end) {
-    if (first == end) return;
     const auto values = [=](const Image& image) {
       return image.values().subspan(
           3 * (std::size_t(y) * std::size_t(image.width()) + std::size_t(first)),
           3 * std::size_t(end - first));
     };
     const std::span<const float> of_a = values(a), of_b = values(b);
-    looked_at_row(of_a.size_bytes());
-    looked_at_row(of_b.size_bytes());
     if (std::memcmp(of_a.data(), of_b.data(), of_a.size_bytes()) == 0) return;
     const auto from = std::ranges::mismatch(of_a, of_b).in1;
     if (from == of_a.end()) return;
     const auto last = std::mismatch(of_a.rbegin(), of_a.rend(), of_b.rbegin()).first;
     area.add(y, first + int(from - of_a.begin()) / 3, first + int(of_a.rend() - last + 2) / 3);
   };
-  // Once its first and last row are known, the area can only become wider.
+  const auto looked_at_both = [bytes = 3 * sizeof(float) * std::size_t(right - left)] {
+    looked_at_row(bytes);
+    looked_at_row(bytes);
+  };
   int y = top, end = bottom;
-  for (; y < bottom && area.right == 0; ++y) add(y, left, right);
-  for (; y < end && area.bottom <= y; --end) add(end - 1, left, right);
-  for (; y < end; ++y) {
+  for (; y < bottom && area.right == 0; ++y) {
+    add(y, left, right);
+    looked_at_both();
+  }
+  for (; y < end && area.bottom <= y; --end) {
+    add(end - 1, left, right);
+    looked_at_both();
+  }
+  // Between its first and its last row, the area can only become wider.
+  for (; y < end && (area.left > left || area.right < right); ++y) {
     add(y, left, area.left);
     add(y, area.right, right);
+    looked_at_both();
   }
   if (area.right == 0) return {tile.left, tile.top, 0, 0};
   const int x = std::max(area.left - radius, tile.left);
@@ -226,11 +235,13 @@ PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
                      std::span<const std::uint8_t> needed) {
   PixelValues map(std::size_t(width) * std::size_t(height));
   const FlipTile area = area_of(needed, width, height);
-  const int across = (area.width + kTileWidth - 1) / kTileWidth,
+  const bool is_large = 3 * sizeof(float) * map.size() >= kLargePiece;
+  const int tile_width = is_large ? kLargeTileWidth : kTileWidth;
+  const int across = (area.width + tile_width - 1) / tile_width,
             down = (area.height + kTileHeight - 1) / kTileHeight;
   oneapi::tbb::parallel_for(0, across * down, [&](int i) {
-    const int x = i % across * kTileWidth, y = i / across * kTileHeight;
-    const FlipTile tile{area.left + x, area.top + y, std::min(kTileWidth, area.width - x),
+    const int x = i % across * tile_width, y = i / across * kTileHeight;
+    const FlipTile tile{area.left + x, area.top + y, std::min(tile_width, area.width - x),
                         std::min(kTileHeight, area.height - y)};
     const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
     const std::size_t count = padded * std::size_t(tile.height);

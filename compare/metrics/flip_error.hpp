@@ -17,7 +17,7 @@ using FlipTaps = std::vector<double>;
 struct FlipFilters {
   explicit FlipFilters(double pixels_per_degree);
 
-  int contrast_radius, feature_radius;  ///< as defined; taps that are almost 0 are left out
+  int contrast_radius, feature_radius;  ///< as defined; taps that are almost 0 are left out, or 0
   /// Contrast sensitivity: achromatic, red-green, and blue-yellow as a sum of two Gaussians, each applied in both
   /// directions.
   FlipTaps luminance, red_green, blue_yellow_1, blue_yellow_2;

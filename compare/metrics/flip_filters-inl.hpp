@@ -29,12 +29,12 @@ HWY_INLINE void keep_in_registers([[maybe_unused]] SampleLanes& a,
 #endif
 }
 
-/// What a register of pixels of a row needs of its neighbours for a round of taps from k on, at least 0.
+/// The neighbours of a register of pixels of a row that a round of taps needs.
 class AlongSamples {
  public:
   static constexpr std::size_t kRound = 8;
 
-  /// `at` is the register's first pixel, k a multiple of kRound.
+  /// `at` is the register's first pixel, k the first tap of the round: a multiple of kRound.
   HWY_INLINE AlongSamples(const double* at, std::size_t k) : before_(at - k), after_(at + k) {
 #if HWY_TARGET <= HWY_AVX3
     const Samples d;
@@ -150,9 +150,10 @@ struct DownSums {
   const double *even_taps, *odd_taps;
   std::size_t count;  ///< of taps
   const double* base;
-  const std::size_t* offsets;  ///< row j is at base + offsets[j]
-  // Of each row, and of those k rows below and above it: of row r at [r % kRows]. So nothing moves from tap to tap.
-  SampleLanes even[kRows], odd[kRows], below[kRows], above[kRows];
+  const std::size_t* offsets;           ///< row j is at base + offsets[j]
+  SampleLanes even[kRows], odd[kRows];  // of each row
+  // The rows k below and above each: row r at r modulo kRows, so that nothing moves from tap to tap.
+  SampleLanes below[kRows], above[kRows];
 
   HWY_INLINE SampleLanes at(std::ptrdiff_t row) const {
     return hn::Load(Samples(), base + offsets[row]);

@@ -90,9 +90,8 @@ FlipFilters::FlipFilters(double pixels_per_degree) {
   // Its taps on one side are the positive ones.
   scale(edge, 2 / sum_of(edge));
   balance_even(point);
-  // All filters of y have as many taps, so that they are added in one loop.
-  const std::size_t of_y = std::max(luminance.size(), edge.size());
-  for (FlipTaps* taps : {&luminance, &gaussian, &edge, &point}) taps->resize(of_y);
+  // As many as those of features, which are never fewer: one loop along a row adds all that filters y.
+  luminance.resize(edge.size());
 }
 
 }  // namespace lobelia

@@ -57,7 +57,7 @@ struct FlipRows {
 };
 
 /// Filters a row of both pictures along, into row `slot` of the outputs. The inputs begin at the row's first column of output,
-/// aligned to kFlipBlock floats; flip_padded(radius() + 1) columns before and after the row may be read.
+/// aligned to 64 bytes; flip_padded(radius() + 1) columns before and after the padded row may be read.
 void flip_filter_along(const FlipFilters& filters, const FlipColours& a, const FlipColours& b,
                        const FlipRows& out_a, const FlipRows& out_b, std::size_t slot);
 

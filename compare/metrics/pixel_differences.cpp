@@ -31,7 +31,7 @@ std::size_t rank_of(double share, std::size_t count) {
   return std::max<std::size_t>(std::size_t(std::ceil(share * double(count))), 1) - 1;
 }
 
-/// A quarter of a MiB for each thread and pass: its pages come at once.
+/// Up to a quarter of a MiB for each thread, pass and beginning, whose pages come at once.
 using Counts = std::vector<std::uint32_t, ZeroedMemory<std::uint32_t>>;
 
 /// On many threads, visit(counts, number) for each value of the region. Returns the sums of all threads' `size` counts.

@@ -120,8 +120,8 @@ TEST(FlipAccuracy, IsAMillionthOnFlatPictures) {
 TEST(FlipAccuracy, IsAMillionthOnPicturesThatDifferInAFewPlaces) {
   Random random;
   for (int round = 0; round < 24; ++round) {
-    const int width = int(random(1, round % 2 == 0 ? 100 : 400)), height = int(random(1, 80));
-    const double distance = std::exp(random(std::log(8.0), std::log(40.0)));
+    const int width = int(random(1, round % 2 == 0 ? 100 : 300)), height = int(random(1, 60));
+    const double distance = std::exp(random(std::log(8.0), std::log(130.0)));
     const Image a = fixtures::noise(width, height, std::uint64_t(round), 1.1f);
     Image b = a;
     for (int places = int(random(1, 7)); places > 0; --places) {
