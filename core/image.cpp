@@ -19,8 +19,8 @@ constexpr std::size_t kLarge = 2 * kLargePage;
 /// Smaller pieces have few pages.
 constexpr std::size_t kNotSmall = std::size_t{64} << 10;
 
-/// Asks for all pages at once: one by one, as they are first written, takes 2 to 9 times as long. Those that are there
-/// already stay as they are.
+/// Asks for all pages at once: one by one, as they are first written, takes several times as long. Those that are
+/// there already stay as they are.
 void populate(void* memory, std::size_t bytes) {
   const auto page = std::uintptr_t(::sysconf(_SC_PAGESIZE)),
              begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page,

@@ -50,9 +50,13 @@ void looked_at(std::size_t bytes) {
   for (const auto& [memory, piece] : pieces().at) ::madvise(memory, piece.size, MADV_DONTNEED);
 }
 
-void* map_file(std::size_t bytes) {
+bool is_kept_in_file(std::size_t bytes) {
   const std::size_t least = g_least;
-  if (least == 0 || bytes < (g_large > 0 ? least / kSmaller : least)) return nullptr;
+  return least > 0 && bytes >= (g_large > 0 ? least / kSmaller : least);
+}
+
+void* map_file(std::size_t bytes) {
+  if (!is_kept_in_file(bytes)) return nullptr;
   const char* directory = std::getenv("TMPDIR");
   const Descriptor file(::open(directory && *directory ? directory : "/tmp",
                                O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR));
@@ -60,7 +64,7 @@ void* map_file(std::size_t bytes) {
   if (!file || ::posix_fallocate(file.get(), 0, off_t(bytes)) != 0) return nullptr;
   void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (memory == MAP_FAILED) return nullptr;
-  const bool is_large = bytes >= least;
+  const bool is_large = bytes >= g_least;
   g_large += is_large;
   const std::lock_guard lock(pieces().mutex);
   pieces().at.emplace(memory, Piece{bytes, is_large});

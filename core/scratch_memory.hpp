@@ -14,6 +14,9 @@ inline constexpr std::size_t kLargePiece = std::size_t{64} << 20;
 /// 0: no piece, as at first.
 void keep_large_pieces_in_files(std::size_t least = kLargePiece);
 
+/// Whether a piece of so many bytes would be in a file now, if there is room for it.
+bool is_kept_in_file(std::size_t bytes);
+
 /// Says that so many bytes of such pieces may have been looked at or written since the last call, by this thread. Each time
 /// that is 32 MiB for all threads together, no page of them stays in this process. They come back when they are looked at.
 void looked_at(std::size_t bytes);

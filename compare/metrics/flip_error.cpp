@@ -17,9 +17,9 @@ namespace lobelia {
 namespace {
 
 // Columns of a tile: few enough to keep a filter's rows in the first cache, and all planes of both pictures in the
-// second. A large picture may be in a file, and then every row of a tile brings the pages around it: fewer tiles, fewer
-// pages. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
-constexpr int kTileWidth = 128, kLargeTileWidth = 256, kTileHeight = 544;
+// second. Of pictures in files every row of a tile brings the pages around it: the fewer tiles, the fewer pages.
+// Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
+constexpr int kTileWidth = 128, kTileWidthInFiles = 256, kTileHeight = 544;
 
 /// The smallest rectangle around pixels.
 struct FlipArea {
@@ -235,8 +235,8 @@ PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
                      std::span<const std::uint8_t> needed) {
   PixelValues map(std::size_t(width) * std::size_t(height));
   const FlipTile area = area_of(needed, width, height);
-  const bool is_large = 3 * sizeof(float) * map.size() >= kLargePiece;
-  const int tile_width = is_large ? kLargeTileWidth : kTileWidth;
+  const bool in_files = is_kept_in_file(3 * sizeof(float) * map.size());
+  const int tile_width = in_files ? kTileWidthInFiles : kTileWidth;
   const int across = (area.width + tile_width - 1) / tile_width,
             down = (area.height + kTileHeight - 1) / kTileHeight;
   oneapi::tbb::parallel_for(0, across * down, [&](int i) {

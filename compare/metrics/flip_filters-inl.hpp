@@ -60,8 +60,8 @@ class AlongSamples {
  private:
   const double *before_, *after_;
 #if HWY_TARGET <= HWY_AVX3
-  // Almost every load of a register that is as long as a line of the cache reads two lines. To shift two registers takes
-  // half the time.
+  // A register is as long as a line of the cache, so almost every load would read two lines. Shifting two registers is
+  // faster.
   SampleLanes near_before_, far_before_, near_after_, far_after_;
 
   template <std::size_t kShift>

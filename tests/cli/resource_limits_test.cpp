@@ -35,7 +35,7 @@ class ResourceLimits : public ::testing::Test {
   }
   fs::path path(const std::string& name) const { return directory_.path() / name; }
 
-  /// What a shell sets before a program that may have so many threads.
+  /// The environment that limits a program to so many threads, as a shell writes it before the command.
   std::string with_threads(int threads) const {
     const fs::path library = path("few_threads.so");  // LD_PRELOAD takes paths apart at blanks
     if (!fs::exists(library)) fs::create_symlink(LOBELIA_FEW_THREADS, library);

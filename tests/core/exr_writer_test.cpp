@@ -54,7 +54,8 @@ TEST(ExrWriter, AnotherReaderFindsEveryBitWhateverTheSize) {
 
 TEST(ExrWriter, TheBytesAreTheSameHoweverManyRowsComeAtATimeAndThreadsWork) {
   const TemporaryDirectory directory;
-  const Image image = picture(64, 107);
+  const Image image = picture(701, 107);
+  ASSERT_GT(image.pixel_count(), kPixelsOfOneThread) << "or one thread packs all";
   const fs::path path = directory.path() / "a.exr";
   write_exr(path, image, {{"Software", "test"}});
   const std::string expected = read_file(path, 1 << 26);

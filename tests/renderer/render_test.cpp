@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/threads.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -110,6 +111,18 @@ TEST(Render, IsTheSameBitForBitWhateverTheNumberOfThreads) {
   for (const char* name : kCanonical) {
     Scene scene = canonical(name, 130, 70);
     scene.sampler = {3, 7};
+    RenderOptions one, many;
+    one.threads = 1;
+    many.threads = 5;
+    EXPECT_TRUE(same(render(scene, one).image, render(scene, many).image)) << name;
+  }
+}
+
+TEST(Render, OfOneSampleIsTheSameBitForBitWhateverTheNumberOfThreads) {
+  for (const char* name : kCanonical) {
+    const Scene scene = canonical(name, 301, 230);
+    ASSERT_GT(std::size_t(scene.film.width * scene.film.height), kPixelsOfOneThread)
+        << "or one thread renders all";
     RenderOptions one, many;
     one.threads = 1;
     many.threads = 5;
