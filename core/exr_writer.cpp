@@ -30,6 +30,8 @@ using Bytes = std::vector<std::uint8_t>;
 /// Memory that a thread uses again for each block: fresh memory takes longer than packing.
 struct Workspace {
   Bytes block, apart, steps, packed;
+  std::vector<isal_zstream, ZeroedMemory<isal_zstream>> stream{
+      1};  // 80 KiB, whose pages come at once
   std::unique_ptr<std::uint8_t[]> deflate{new std::uint8_t[ISAL_DEF_LVL1_DEFAULT]};
 };
 
@@ -60,7 +62,8 @@ Bytes zipped(const float* rgb, int width, int rows) {
   for (std::size_t i = 1; i < count; ++i) steps[i] = std::uint8_t(apart[i] - apart[i - 1] + 128);
 
   // All zero: a few bytes of a packed block depend on what isal_deflate_stateless_init() leaves as it was.
-  isal_zstream stream{};
+  isal_zstream& stream = space.stream[0];
+  std::memset(&stream, 0, sizeof stream);
   isal_deflate_stateless_init(&stream);
   stream.level = 1;
   stream.level_buf = space.deflate.get();

@@ -23,23 +23,19 @@ namespace {
   throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
 }
 
-bool names_directory(const fs::path& path) {
-  std::error_code ignored;  // open() will say what is wrong with the path
-  return fs::is_directory(path, ignored);
-}
-
 /// The file that a write to `path` replaces. Throws Error(kOutput) for anything but a regular file: a rename would
 /// replace a device by a file.
 fs::path final_target(const fs::path& path, AtLink at_link) {
-  std::error_code ignored;
+  std::error_code ignored;  // open() will say what is wrong with the path
   fs::path target = path;
-  if (fs::is_symlink(path, ignored)) {
+  auto type = fs::symlink_status(path, ignored).type();
+  if (type == fs::file_type::symlink) {
     if (at_link == AtLink::kReplace) return path;
     target = fs::weakly_canonical(path, ignored);
     if (target.empty()) output_error(path, ELOOP);
+    type = fs::status(target, ignored).type();
   }
-  if (names_directory(target)) output_error(path, EISDIR);
-  const auto type = fs::status(target, ignored).type();
+  if (type == fs::file_type::directory) output_error(path, EISDIR);
   if (type != fs::file_type::regular && fs::exists(fs::file_status(type)) &&
       type != fs::file_type::unknown)
     throw Error(ExitCode::kOutput,
@@ -103,7 +99,12 @@ void PartFile::fail(int error) {
 }
 
 void PartFile::append(std::span<const std::uint8_t> bytes) {
-  write_at(size_, bytes);
+  constexpr std::size_t kMostWaiting = 16384;
+  if (waiting_.size() + bytes.size() > kMostWaiting) write_waiting();
+  if (bytes.size() > kMostWaiting)
+    write(size_, bytes);
+  else
+    waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
   size_ += bytes.size();
 }
 
@@ -112,6 +113,21 @@ void PartFile::append(std::string_view text) {
 }
 
 void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes) {
+  write_waiting();
+  write(offset, bytes);
+}
+
+const fs::path& PartFile::part() {
+  write_waiting();
+  return part_.path();
+}
+
+void PartFile::write_waiting() {
+  write(size_ - waiting_.size(), waiting_);
+  waiting_.clear();
+}
+
+void PartFile::write(std::uint64_t offset, std::span<const std::uint8_t> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = retried([&] {
@@ -124,6 +140,7 @@ void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> byte
 
 void PartFile::flush() {
   if (!file_) return;
+  write_waiting();
   // Without fsync a full disk may be noticed only after the rename.
   if (flushes_later == 0 && ::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
   if (::close(file_.release()) != 0) fail(errno);
@@ -135,7 +152,10 @@ void PartFile::finish() {
     // A few stay open until commit(), because flushing several at once takes no longer than one.
     constexpr std::size_t kMostOpen = 16;
     if (together->finished_.size() >= kMostOpen) flush();
-    if (file_) ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);  // begins to write it
+    if (file_) {
+      write_waiting();
+      ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);  // begins to write it
+    }
     together->finished_.push_back(std::move(*this));
     return;
   }
@@ -184,6 +204,12 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
   const fs::path part = part_path(final_target(path, AtLink::kFollow));
+  // A file without a name need not be removed. Not every file system has them, and names may be too long.
+  const fs::path here = part.parent_path() / ".";
+  struct stat status {};
+  if (::lstat(part.c_str(), &status) != 0 && errno == ENOENT &&
+      Descriptor(::open(here.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666)))
+    return;
   const EndDelay delay;
   const Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file) output_error(path, errno);
@@ -193,7 +219,9 @@ void require_writable(const fs::path& path) {
 void make_directories(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (!error && !names_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+  std::error_code ignored;
+  if (!error && !fs::is_directory(path, ignored))
+    error = std::make_error_code(std::errc::not_a_directory);
   if (error)
     throw Error(ExitCode::kOutput,
                 fmt::format("{}: cannot make the directory: {}", path.string(), error.message()));

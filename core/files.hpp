@@ -42,7 +42,8 @@ class PartFile {
   /// Overwrites bytes that are there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
-  const std::filesystem::path& part() const { return part_.path(); }  ///< its temporary name
+  const std::filesystem::path&
+  part();  ///< its temporary name, for a file with everything so far in it
   /// Flushes to the disk, then renames. If there is a FilesTogether, its commit() does both instead.
   void finish();
 
@@ -50,9 +51,13 @@ class PartFile {
   friend class FilesTogether;
   [[noreturn]] void fail(int error);
   void flush();
+  void write(std::uint64_t offset, std::span<const std::uint8_t> bytes);
+  void write_waiting();
   Descriptor file_;
   std::filesystem::path path_, target_;
   TemporaryPath part_;
+  std::vector<std::uint8_t>
+      waiting_;  ///< the last bytes of size_, not yet written: appended pieces may be tiny
   std::uint64_t size_ = 0;
 };
 

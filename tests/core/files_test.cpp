@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <random>
@@ -129,6 +130,52 @@ TEST(WriteFile, WithANameThatNoSystemTakesIsAnOutputError) {
   const auto path = directory.path() / std::string(300, 'x');
   EXPECT_EQ(code_of([&] { write_file(path, "x"); }), ExitCode::kOutput);
   EXPECT_EQ(code_of([&] { require_writable(path); }), ExitCode::kOutput);
+}
+
+TEST(RequireWritable, LeavesNothingAndAsksForADirectoryThatIsThereAndMayBeWritten) {
+  const TemporaryDirectory directory;
+  const fs::path here = directory.path();
+  require_writable(here / "new");
+  EXPECT_EQ(entries(here), 0u);
+  write_file(here / "old", "old");
+  require_writable(here / "old");
+  EXPECT_EQ(read_file(here / "old", 100), "old");
+  EXPECT_EQ(entries(here), 1u);
+  for (const fs::path& wrong : {here / "missing" / "new", here / "old" / "new", here, here / ""})
+    EXPECT_EQ(code_of([&] { require_writable(wrong); }), ExitCode::kOutput) << wrong;
+}
+
+TEST(PartFile, HoldsWhatWasAppendedAndOverwrittenInPiecesOfAnySize) {
+  const TemporaryDirectory directory;
+  std::mt19937 random;
+  const auto up_to = [&](std::size_t most) { return random() % (most + 1); };
+  // Small ones are written together, and large ones alone.
+  const auto piece = [&](std::size_t most) {
+    std::vector<std::uint8_t> bytes(up_to(most));
+    for (std::uint8_t& byte : bytes) byte = std::uint8_t(random());
+    return bytes;
+  };
+  for (int file = 0; file < 20; ++file) {
+    std::string expected;
+    PartFile part(directory.path() / "whole");
+    for (int step = 0; step < 60; ++step) {
+      if (const std::size_t what = up_to(9); what == 0) {
+        EXPECT_EQ(read_file(part.part(), 10'000'000), expected);
+      } else if (what <= 2) {
+        const auto bytes = piece(std::min<std::size_t>(expected.size(), 40'000));
+        const std::size_t at = up_to(expected.size() - bytes.size());
+        part.write_at(at, bytes);
+        std::ranges::copy(bytes, expected.begin() + std::ptrdiff_t(at));
+      } else {
+        const auto bytes = piece(what == 3 ? 40'000 : 300);
+        part.append(bytes);
+        expected.append(bytes.begin(), bytes.end());
+      }
+      EXPECT_EQ(part.size(), expected.size());
+    }
+    part.finish();
+    EXPECT_EQ(read_file(directory.path() / "whole", 10'000'000), expected);
+  }
 }
 
 TEST(WriteFile, ThatDoesNotFitLeavesTheOldFileAndNoPart) {
