@@ -61,20 +61,27 @@ Bytes zipped(const float* rgb, int width, int rows) {
   steps[0] = apart[0];
   for (std::size_t i = 1; i < count; ++i) steps[i] = std::uint8_t(apart[i] - apart[i - 1] + 128);
 
-  // All zero: a few bytes of a packed block depend on what isal_deflate_stateless_init() leaves as it was.
   isal_zstream& stream = space.stream[0];
+  // All zero: a few bytes of a packed block depend on what isal_deflate_init() leaves as it was.
   std::memset(&stream, 0, sizeof stream);
-  isal_deflate_stateless_init(&stream);
+  isal_deflate_init(&stream);
   stream.level = 1;
   stream.level_buf = space.deflate.get();
   stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
   stream.gzip_flag = IGZIP_ZLIB;
-  stream.end_of_stream = 1;
-  stream.next_in = space.steps.data();
-  stream.avail_in = std::uint32_t(count);
   stream.next_out = space.packed.data();
-  stream.avail_out = std::uint32_t(count - 1);
-  if (isal_deflate_stateless(&stream) != COMP_OK) return space.block;
+  stream.avail_out = std::uint32_t(count);
+  stream.next_in = space.steps.data();
+  // The first bytes by themselves. If more come at first, ISA-L 2.30 to 2.32 looks the third of them up by the address
+  // of the stream, and one block in thousands is packed otherwise in the next process.
+  stream.avail_in = std::uint32_t(std::min<std::size_t>(count, 16));
+  stream.flush = SYNC_FLUSH;
+  isal_deflate(&stream);
+  stream.avail_in = std::uint32_t(count) - stream.total_in;
+  stream.flush = NO_FLUSH;
+  stream.end_of_stream = 1;
+  isal_deflate(&stream);
+  if (stream.avail_out == 0) return space.block;
   return {space.packed.data(), space.packed.data() + stream.total_out};
 }
 

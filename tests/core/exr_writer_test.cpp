@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <barrier>
 #include <bit>
 #include <random>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -85,6 +88,36 @@ TEST(ExrWriter, TheBytesDependOnThePictureAlone) {
     const std::string once = write(directory.path() / "a.exr", image, 16);
     litter_stack(random);
     differ += write(directory.path() / "a.exr", image, 16) != once;
+  }
+  EXPECT_EQ(differ, 0);
+}
+
+TEST(ExrWriter, TheBytesAreTheSameWhereverTheMemoryOfAThreadIs) {
+  const TemporaryDirectory directory;
+  // Small ones, because a packer sees more by chance in a small table.
+  const auto write_all = [&](const std::string& name) {
+    const FlushLater quickly;
+    std::mt19937 random(2);
+    std::vector<std::string> all;
+    for (int k = 0; k < 60; ++k) {
+      Image image(2 + int(random() % 6), 1 + int(random() % 4));
+      for (float& v : image.values()) v = random() % 8 > 0 ? 0.5f : 2.f;
+      all.push_back(write(directory.path() / name, image, 16));
+    }
+    return all;
+  };
+  const std::vector<std::string> expected = write_all("first");
+  // All of them live until the last one has written, so that none has the memory of another.
+  constexpr int kThreads = 60;
+  std::barrier all_have_written(kThreads);
+  std::atomic<int> differ = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < kThreads; ++i)
+      threads.emplace_back([&, i] {
+        differ += write_all(std::to_string(i)) != expected;
+        all_have_written.arrive_and_wait();
+      });
   }
   EXPECT_EQ(differ, 0);
 }
