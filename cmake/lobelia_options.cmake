@@ -14,7 +14,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
 endif()
 # Every kernel is compiled once for each of Highway's targets. SSE4 would take a quarter of that time, and no picture needs
 # what it adds to the baseline SSSE3. (SSE4 also needs AES, which x86-64-v2 lacks.)
-set(LOBELIA_LEFT_OUT HWY_SSE4)
+set(LOBELIA_LEFT_OUT HWY_SSE4 CACHE STRING "Highway's targets without kernels")
 if(LOBELIA_SANITIZE)
   # Instrumented, a fused kernel takes minutes to compile for all targets. All share one source, so one target is enough.
   set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX2|HWY_AVX3|HWY_AVX3_DL)")

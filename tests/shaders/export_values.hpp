@@ -105,13 +105,48 @@ inline std::vector<std::vector<ShaderExport>> exports_to_run(const std::string& 
           }
         }
     }
+  std::erase_if(lists, [](const auto& list) { return list.empty(); });
   return lists;
 }
+
+/// What the formulas say for points, each value computed once.
+class KnownValues {
+ public:
+  using Key = std::tuple<int, int, int, Normalisation>;
+  static Key key(const Highlight& h) {
+    return {h.model.index, h.lobe.index, h.lobe.order, h.normalisation};
+  }
+
+  explicit KnownValues(const std::vector<CalledPoint>& points) : points_(points) {}
+
+  double coefficient(const Highlight& highlight) {
+    double& known = coefficients_[{key(highlight), highlight.exponent}];
+    if (known == 0) known = truth::coefficient(highlight);
+    return known;
+  }
+
+  /// For the point's directions and exponent, which the highlight has too.
+  double shape(const Highlight& highlight, std::size_t point) {
+    auto& known = shapes_[{highlight.model.index, highlight.lobe.index, highlight.lobe.order}];
+    known.resize(points_.size(), -1);
+    if (known[point] < 0) {
+      const Directions& d = points_[point].directions;
+      known[point] = truth::shape(highlight, d.normal, d.to_eye, d.to_light);
+    }
+    return known[point];
+  }
+
+ private:
+  const std::vector<CalledPoint>& points_;
+  std::map<std::pair<Key, double>, double> coefficients_;
+  std::map<std::tuple<int, int, int>, std::vector<double>> shapes_;
+};
 
 /// Compares values with the formulas, and in the end the largest errors with what docs/export.md says.
 class ExportJudge {
  public:
-  explicit ExportJudge(const std::vector<CalledPoint>& points) : points_(points) {}
+  ExportJudge(const std::vector<CalledPoint>& points, KnownValues& known)
+      : points_(points), known_(known) {}
 
   /// `colour` is what the function gave for point `i`.
   void add(const ExportOutput& output, std::size_t i, Rgb colour) {
@@ -125,13 +160,13 @@ class ExportJudge {
     }
     const Highlight highlight = output.highlight(n);
     if (output.request.exponent.value_or(n) != n) return;
-    const double peak = truth::coefficient(highlight);
+    const double peak = known_.coefficient(highlight);
     if (output.is_coefficient) {
       worst_coefficient_ = std::max(worst_coefficient_, std::abs(colour.r / peak - 1));
       return;
     }
     if (is_hard || is_at_an_edge(output.model, d)) return;
-    const double shape = shape_at(highlight, i);
+    const double shape = known_.shape(highlight, i);
     const Rgb fresnel = output.request.fresnel == Fresnel::kNone
                             ? Rgb{1, 1, 1}
                             : fresnel_factor(Fresnel::kSchlick, kReflectance, d.to_eye, d.to_light);
@@ -174,19 +209,8 @@ class ExportJudge {
     return std::abs(n_dot_l) < 1e-6 || std::abs(cosine) < 1e-5;
   }
 
-  /// truth::shape, once for all functions of a model and a lobe.
-  double shape_at(const Highlight& highlight, std::size_t i) {
-    auto& known = shapes_[{highlight.model.index, highlight.lobe.index, highlight.lobe.order}];
-    known.resize(points_.size(), -1);
-    if (known[i] < 0) {
-      const Directions& d = points_[i].directions;
-      known[i] = truth::shape(highlight, d.normal, d.to_eye, d.to_light);
-    }
-    return known[i];
-  }
-
   const std::vector<CalledPoint>& points_;
-  std::map<std::tuple<int, int, int>, std::vector<double>> shapes_;
+  KnownValues& known_;
   std::map<double, double> worst_, worst_opposite_;  ///< of the peak, by exponent
   double worst_coefficient_ = 0;
   std::size_t compared_ = 0;

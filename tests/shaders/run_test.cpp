@@ -10,24 +10,40 @@ class RunInABrowser : public NeedsWebGpu {};
 
 constexpr std::size_t kExponentAt = 9, kFirstCoefficient = 10;
 
-/// What every point has in a program with these outputs: three vectors, the exponent, and each output's coefficient.
-ShaderPoints points_for(const std::vector<ExportOutput>& outputs,
-                        const std::vector<CalledPoint>& points) {
-  ShaderPoints made{kFirstCoefficient + outputs.size(), {}};
-  std::map<double, std::vector<float>> coefficients;
-  for (const CalledPoint& point : points) {
-    if (const double n = point.exponent; !coefficients.contains(n))
+/// A coefficient for each model, lobe and normalisation of the outputs, as an argument of their functions.
+class CoefficientColumns {
+ public:
+  explicit CoefficientColumns(const std::vector<std::vector<ExportOutput>>& programs) {
+    for (const std::vector<ExportOutput>& outputs : programs)
       for (const ExportOutput& output : outputs)
-        coefficients[n].push_back(n > 0 ? float(truth::coefficient(output.highlight(n))) : 1);
-    for (const Vec3 v :
-         {point.directions.normal, point.directions.to_eye, point.directions.to_light})
-      made.values.insert(made.values.end(), {float(v.x), float(v.y), float(v.z)});
-    made.values.push_back(float(point.exponent));
-    const std::vector<float>& more = coefficients[point.exponent];
-    made.values.insert(made.values.end(), more.begin(), more.end());
+        if (columns_.try_emplace(key(output), columns_.size()).second)
+          highlights_.push_back(output.highlight(1));
   }
-  return made;
-}
+  std::size_t of(const ExportOutput& output) const { return columns_.at(key(output)); }
+
+  /// What every point has: three vectors, the exponent, and all coefficients.
+  ShaderPoints points(const std::vector<CalledPoint>& called, KnownValues& known) const {
+    ShaderPoints made{kFirstCoefficient + highlights_.size(), {}};
+    for (const CalledPoint& point : called) {
+      for (const Vec3 v :
+           {point.directions.normal, point.directions.to_eye, point.directions.to_light})
+        made.values.insert(made.values.end(), {float(v.x), float(v.y), float(v.z)});
+      made.values.push_back(float(point.exponent));
+      for (Highlight highlight : highlights_) {
+        highlight.exponent = point.exponent;
+        made.values.push_back(point.exponent > 0 ? float(known.coefficient(highlight)) : 1);
+      }
+    }
+    return made;
+  }
+
+ private:
+  static KnownValues::Key key(const ExportOutput& output) {
+    return KnownValues::key(output.highlight(1));
+  }
+  std::map<KnownValues::Key, std::size_t> columns_;
+  std::vector<Highlight> highlights_;
+};
 
 /// Several exports in one text, as somebody puts them together. WGSL has no preprocessor: there each function once.
 std::string text_of(ShaderText language, const std::vector<ShaderExport>& requests) {
@@ -55,19 +71,20 @@ std::string text_of(ShaderText language, const std::vector<ShaderExport>& reques
 }
 
 ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& requests,
-                       const std::vector<ExportOutput>& outputs) {
+                       const std::vector<ExportOutput>& outputs,
+                       const CoefficientColumns& columns) {
   const std::string_view vector = vector_type(language);
   std::string vectors;
   for (std::size_t v = 0; v < 3; ++v)
     vectors += fmt::format("{}{}({}, {}, {})", v == 0 ? "" : ", ", vector, shader_component(3 * v),
                            shader_component(3 * v + 1), shader_component(3 * v + 2));
   ShaderSource source{language, "exports", text_of(language, requests), {}};
-  for (std::size_t k = 0; k < outputs.size(); ++k)
+  for (const ExportOutput& output : outputs)
     source.calls.push_back(
-        outputs[k].is_coefficient
-            ? fmt::format("{}({})", outputs[k].coefficient_name(), shader_component(kExponentAt))
-            : call_of(outputs[k].request, outputs[k].model, vectors, shader_component(kExponentAt),
-                      shader_component(kFirstCoefficient + k),
+        output.is_coefficient
+            ? fmt::format("{}({})", output.coefficient_name(), shader_component(kExponentAt))
+            : call_of(output.request, output.model, vectors, shader_component(kExponentAt),
+                      shader_component(kFirstCoefficient + columns.of(output)),
                       fmt::format("{}({:#}, {:#}, {:#})", vector, kReflectance.r, kReflectance.g,
                                   kReflectance.b)));
   return source;
@@ -75,34 +92,41 @@ ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& req
 
 using Lists = std::vector<std::vector<ShaderExport>>;
 
-/// Calls `visit` with what every function gives for every point; `in_half`: with all arithmetic in half floats.
+/// Calls `visit` with what every function gives for every point; `in_half`: with all arithmetic in half floats. A program
+/// for each list, and all of them in one process: a browser takes longer to start than to run one.
 template <class Visit>
 void run_exports(ShaderText language, ShaderApi api, const std::vector<CalledPoint>& points,
-                 const Lists& lists, bool in_half, Visit visit) {
-  for (const auto& requests : lists) {
-    const std::vector<ExportOutput> outputs = outputs_of(requests);
-    if (outputs.empty()) continue;
-    const ShaderPoints called = points_for(outputs, points);
-    ShaderProgram program = make_program(source_of(language, requests, outputs), api,
-                                         called.count(), called.components);
-    if (in_half) program = in_half_floats(program);
-    const ShaderRun run =
-        run_programs(api, called, {program}, outputs.size(), {std::chrono::hours(1), 0});
-    for (std::size_t k = 0; k < outputs.size(); ++k)
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const ShaderValue& value = run.values.front()[k * points.size() + i];
-        ASSERT_TRUE(value.written);
-        ASSERT_NO_FATAL_FAILURE(visit(outputs[k], i, Rgb{value.r, value.g, value.b}));
-      }
+                 const Lists& lists, bool in_half, KnownValues& known, Visit visit) {
+  std::vector<std::vector<ExportOutput>> outputs;
+  std::size_t calls = 0;
+  for (const auto& requests : lists)
+    calls = std::max(calls, outputs.emplace_back(outputs_of(requests)).size());
+  const CoefficientColumns columns(outputs);
+  const ShaderPoints called = columns.points(points, known);
+  std::vector<ShaderProgram> programs;
+  for (std::size_t j = 0; j < lists.size(); ++j) {
+    ShaderSource source = source_of(language, lists[j], outputs[j], columns);
+    source.calls.resize(calls, std::string(vector_type(language)) + "(0.0)");
+    programs.push_back(make_program(source, api, called.count(), called.components));
+    if (in_half) programs.back() = in_half_floats(programs.back());
   }
+  const ShaderRun run = run_programs(api, called, programs, calls, {std::chrono::hours(1), 0});
+  for (std::size_t j = 0; j < lists.size(); ++j)
+    for (std::size_t k = 0; k < outputs[j].size(); ++k)
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const ShaderValue& value = run.values[j][k * points.size() + i];
+        ASSERT_TRUE(value.written);
+        ASSERT_NO_FATAL_FAILURE(visit(outputs[j][k], i, Rgb{value.r, value.g, value.b}));
+      }
 }
 
 void expect_the_formulas(ShaderText language, ShaderApi api) {
   const std::vector<CalledPoint> points = called_points();
-  ExportJudge judge(points);
+  KnownValues known(points);
+  ExportJudge judge(points, known);
   const Lists lists = exports_to_run(std::string(kShaderTextNames[std::size_t(language)]));
   run_exports(
-      language, api, points, lists, false,
+      language, api, points, lists, false, known,
       [&](const ExportOutput& output, std::size_t i, Rgb colour) { judge.add(output, i, colour); });
   if (testing::Test::HasFatalFailure()) return;
   judge.expect_as_documented(std::string(kShaderTextNames[std::size_t(language)]));
@@ -120,8 +144,9 @@ TEST_F(RunByADriver, EveryFunctionIsANumberForTheSmallestAndTheLargestExponents)
   std::vector<CalledPoint> points;
   for (const double n : {0.0, 3.0, kMaxExponent})
     for (const Directions& d : hard_directions()) points.push_back({d, n, true});
+  KnownValues known(points);
   std::size_t numbers = 0;
-  run_exports(ShaderText::kGlsl, ShaderApi::kEgl, points, exports_to_run("glsl"), false,
+  run_exports(ShaderText::kGlsl, ShaderApi::kEgl, points, exports_to_run("glsl"), false, known,
               [&](const ExportOutput& output, std::size_t i, Rgb colour) {
                 ASSERT_TRUE(std::isfinite(colour.r + colour.g + colour.b))
                     << function_name_of(output.request, output.model) << " point " << i;
@@ -152,9 +177,10 @@ std::map<std::pair<double, LobeAngle>, double> half_export_errors(ShaderText lan
         points.push_back({d, n, false});
     }
   }
+  KnownValues known(points);
   std::map<std::pair<double, LobeAngle>, double> errors;
   run_exports(language, api, points, half_exports(std::string(kShaderTextNames[int(language)])),
-              in_half, [&](const ExportOutput& output, std::size_t i, Rgb colour) {
+              in_half, known, [&](const ExportOutput& output, std::size_t i, Rgb colour) {
                 if (output.is_coefficient) return;
                 const auto& [d, n, is_hard] = points[i];
                 const Highlight h = output.highlight(n);
@@ -163,8 +189,7 @@ std::map<std::pair<double, LobeAngle>, double> half_export_errors(ShaderText lan
                         ? Rgb{1, 1, 1}
                         : fresnel_factor(Fresnel::kSchlick, kReflectance, d.to_eye, d.to_light);
                 const double error =
-                    std::abs(colour.g / truth::coefficient(h) -
-                             fresnel.g * truth::shape(h, d.normal, d.to_eye, d.to_light));
+                    std::abs(colour.g / known.coefficient(h) - fresnel.g * known.shape(h, i));
                 double& largest = errors[{n, info(h.model).angle}];
                 largest = error <= largest ? largest : error;
               });
