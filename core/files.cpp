@@ -156,6 +156,7 @@ void PartFile::finish() {
       write_waiting();
       ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);  // begins to write it
     }
+    waiting_.shrink_to_fit();  // there may be thousands
     together->finished_.push_back(std::move(*this));
     return;
   }
@@ -204,10 +205,12 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
   const fs::path part = part_path(final_target(path, AtLink::kFollow));
-  // A file without a name need not be removed. Not every file system has them, and names may be too long.
+  // A file without a name need not be removed. Where there is none, or the directory or the name is wrong, one with a
+  // name is tried. (In a removed directory of tmpfs the first can be made and the second cannot.)
   const fs::path here = part.parent_path() / ".";
   struct stat status {};
-  if (::lstat(part.c_str(), &status) != 0 && errno == ENOENT &&
+  if (::stat(here.c_str(), &status) == 0 && status.st_nlink > 0 &&
+      ::lstat(part.c_str(), &status) != 0 && errno == ENOENT &&
       Descriptor(::open(here.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666)))
     return;
   const EndDelay delay;

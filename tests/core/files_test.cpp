@@ -145,6 +145,19 @@ TEST(RequireWritable, LeavesNothingAndAsksForADirectoryThatIsThereAndMayBeWritte
     EXPECT_EQ(code_of([&] { require_writable(wrong); }), ExitCode::kOutput) << wrong;
 }
 
+TEST(RequireWritable, RefusesADirectoryThatWasRemovedWhileItIsTheCurrentOne) {
+  const fs::path before = fs::current_path();
+  for (const fs::path& parent : {fs::temp_directory_path(), fs::path("/dev/shm")}) {
+    if (!fs::is_directory(parent)) continue;
+    const TemporaryDirectory directory(parent);
+    fs::create_directory(directory.path() / "here");
+    fs::current_path(directory.path() / "here");
+    fs::remove(directory.path() / "here");
+    EXPECT_EQ(code_of([] { require_writable("new"); }), ExitCode::kOutput) << parent;
+    fs::current_path(before);
+  }
+}
+
 TEST(PartFile, HoldsWhatWasAppendedAndOverwrittenInPiecesOfAnySize) {
   const TemporaryDirectory directory;
   std::mt19937 random;

@@ -91,6 +91,18 @@ export const address = (page) => page.evaluate(() => location.href);
 /** What the link says after its '#'. */
 export const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
+/** A click on the stage. On a busy machine it may last as long as a press that is held, and is none all the same. */
+export async function clickStage(page, x, y) {
+  const hold = Number(/kHold = (\d+)/.exec(readFileSync(path.join(web, 'src/cell/flipper.ts'), 'utf8'))[1]);
+  await page.evaluate((ms) => {
+    const set = window.setTimeout;
+    window.setTimeout = (act, after, ...rest) => (after === ms ? 0 : set(act, after, ...rest));
+    window.endClick = () => { window.setTimeout = set; };
+  }, hold);
+  await page.mouse.click(x, y);
+  await page.evaluate(() => window.endClick());
+}
+
 /** The viewer has its float pictures. */
 export const ready = (page, count = 2) => page.waitForFunction((n) => Number(document.querySelector('.stage')?.dataset.ready) >= n, count);
 

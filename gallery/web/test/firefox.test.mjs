@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { fileUrl, hashOf, lobelia, scratch, serve } from './browser.mjs';
+import { clickStage, fileUrl, hashOf, lobelia, scratch, serve } from './browser.mjs';
 import { ours, writeFarm } from './farm.mjs';
 import { close, launchFirefox, open, press, saved, says, seen, textOf } from './firefox.mjs';
 import { writeStudies } from './studies.mjs';
@@ -65,7 +65,7 @@ for (const from of ['file', 'server']) {
     near(bright, ours(36, 26, kSize).map((v) => encoded(v / 2)));
     assert.ok(Math.max(...dark) < 40, String(dark));
     const first = await textOf(page, '.tags'), place = await middleOf(page);
-    await page.mouse.click(...place);
+    await clickStage(page, ...place);
     await page.waitForFunction((words) => document.querySelector('.tags').textContent !== words, {}, first);
     await page.keyboard.press('f');
     await page.waitForFunction((words) => document.querySelector('.tags').textContent === words, {}, first);

@@ -1,7 +1,7 @@
 // A reader's hand on the page of a cell: keys, mouse and fingers.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { address, close, hashOf, open, ready, requireAccessible, says, seenAt } from './browser.mjs';
+import { address, clickStage, close, hashOf, open, ready, requireAccessible, says, seenAt } from './browser.mjs';
 import { cellSite, middle, near } from './cell_site.mjs';
 
 const here = cellSite({ size: 64 }), { cellPage } = here;
@@ -94,7 +94,7 @@ test('two pictures are flipped by a click, while a press lasts, and by a timer',
   const shown = () => page.locator('.tags').textContent(), first = await shown();
   const box = await page.locator('.stage').boundingBox();
   const middle = [box.x + box.width / 2, box.y + box.height / 2];
-  await page.mouse.click(...middle);
+  await clickStage(page, ...middle);
   await page.waitForFunction((words) => document.querySelector('.tags').textContent !== words, first);
   const second = await shown();
   await page.mouse.move(...middle);
