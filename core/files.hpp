@@ -43,7 +43,7 @@ class PartFile {
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
   const std::filesystem::path&
-  part();  ///< its temporary name, for a file with everything so far in it
+  part();  ///< its temporary name. The file holds all that was appended so far
   /// Flushes to the disk, then renames. If there is a FilesTogether, its commit() does both instead.
   void finish();
 

@@ -109,7 +109,7 @@ inline std::vector<std::vector<ShaderExport>> exports_to_run(const std::string& 
   return lists;
 }
 
-/// What the formulas say for points, each value computed once.
+/// The formulas' values at the points. Each is computed only once.
 class KnownValues {
  public:
   using Key = std::tuple<int, int, int, Normalisation>;

@@ -21,7 +21,7 @@ class CoefficientColumns {
   }
   std::size_t of(const ExportOutput& output) const { return columns_.at(key(output)); }
 
-  /// What every point has: three vectors, the exponent, and all coefficients.
+  /// The input for each point: normal, directions to eye and light, exponent, all coefficients.
   ShaderPoints points(const std::vector<CalledPoint>& called, KnownValues& known) const {
     ShaderPoints made{kFirstCoefficient + highlights_.size(), {}};
     for (const CalledPoint& point : called) {

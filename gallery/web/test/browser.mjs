@@ -91,7 +91,7 @@ export const address = (page) => page.evaluate(() => location.href);
 /** What the link says after its '#'. */
 export const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
-/** A click on the stage. On a busy machine it may last as long as a press that is held, and is none all the same. */
+/** A click on the stage that is never taken for a held press, however long a busy machine makes it last. */
 export async function clickStage(page, x, y) {
   const hold = Number(/kHold = (\d+)/.exec(readFileSync(path.join(web, 'src/cell/flipper.ts'), 'utf8'))[1]);
   await page.evaluate((ms) => {
