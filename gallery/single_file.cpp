@@ -12,6 +12,7 @@
 #include "core/sha256.hpp"
 #include "gallery/page.hpp"
 #include "gallery/publisher.hpp"
+#include "records/pages.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
