@@ -88,6 +88,8 @@ double albedo(const Row& row, Lobe lobe, Real n, Real coefficient, double theta,
 
   static boost::math::quadrature::tanh_sinh<double> quadrature;
   constexpr double kTolerance = 1e-10;
+  // Lobes fall from their axis: what follows is less than 25 times this, where a figure has four digits.
+  constexpr Real kNothing = 1e-14L;
   const auto integrand = [&](double a) {
     return double(value(lobe, Real(a), n)) * std::sin(a) *
            around(half_vector, theta, a, with_cosine);
@@ -95,6 +97,7 @@ double albedo(const Row& row, Lobe lobe, Real n, Real coefficient, double theta,
   double sum = 0, from = 0;
   for (const double to : ends) {
     if (!(to - from > 1e-12) || to > end) continue;
+    if (value(lobe, Real(from), n) < kNothing) break;
     // Over 0..1, so that a narrow interval far from 0 has room for the points that crowd at its ends.
     const double width = to - from;
     const auto share_of = [&](double u) { return integrand(from + width * u); };
