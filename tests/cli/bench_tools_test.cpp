@@ -53,7 +53,7 @@ TEST_F(BenchTools, LeaveARecordAloneThatIsNone) {
 
 TEST_F(BenchTools, FindAProgramThatBecameSlowerAndSayWhichCommand) {
   const auto slow = directory_.path() / "slow";
-  write_file(slow, fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && sleep 0.3\nexec {} \"$@\"\n",
+  write_file(slow, fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && sleep 1\nexec {} \"$@\"\n",
                                shell_quote(LOBELIA_PROGRAM)));
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
   // Of 18 pairs, two may be disturbed.

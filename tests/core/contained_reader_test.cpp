@@ -373,14 +373,15 @@ TEST_F(ContainedReader, LeavesNoReaderBehindWhenItsProgramIsKilled) {
           .pid;
   ::close(null);
   const auto wait = std::chrono::milliseconds(5);
+  constexpr int kHang = 120'000;  // of these waits: ten minutes
   std::vector<pid_t> readers;
-  for (int i = 0; i < 6000 && (readers = readers_of(program)).empty(); ++i)
+  for (int i = 0; i < kHang && (readers = readers_of(program)).empty(); ++i)
     std::this_thread::sleep_for(wait);
   ::kill(program, SIGKILL);
   ::waitpid(program, nullptr, 0);
   ASSERT_FALSE(readers.empty());
   for (const pid_t reader : readers) {
-    for (int i = 0; i < 6000 && is_running(reader); ++i) std::this_thread::sleep_for(wait);
+    for (int i = 0; i < kHang && is_running(reader); ++i) std::this_thread::sleep_for(wait);
     EXPECT_FALSE(is_running(reader));
   }
 }

@@ -50,7 +50,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
   }
 
   std::map<std::size_t, std::string> errors_of(const std::string& body, int scenes = 1,
-                                               double limit = 20) {
+                                               double limit = 3600) {
     const auto engine = make_engine(GetParam(), program(body));
     const std::vector<Scene> all = plain_scenes(scenes);
     ReferenceOptions options;

@@ -82,6 +82,11 @@ class FailingFarm : public testing::Test {
   /// A program that answers as POV-Ray does and has every picture of grid() ready. `misdeeds` is shell that runs
   /// before each picture: $cell is the cell's id, $stem.exr what is to be written. Returns its path.
   fs::path fake_povray(const std::string& misdeeds = "") const;
+  /// A misdeed: to wait for let_go_on().
+  std::string waits() const {
+    return fmt::format("until [ -e '{}' ]; do sleep 0.1; done", (root() / "go").string());
+  }
+  void let_go_on() const { write_file(root() / "go", ""); }
   /// A script that is no test's own.
   fs::path script(const std::string& name, const std::string& text) const;
   /// Shell words that are true so many times: the engine may write nothing that would count.

@@ -28,13 +28,15 @@ class KilledEngine : public FailingFarm {
     EXPECT_THAT(differences(results_of(root() / "alone"), results_of(out())), testing::IsEmpty());
     expect_nothing_half_written();
   }
-  /// Processes of an engine a tenth of a second after one was seen. One may end before: then of the next.
+  /// Processes of an engine a tenth of a second after one was seen. One may end before: then of the next. They are
+  /// stopped, so that none ends before it is killed.
   static std::vector<int> wait_for(const std::string& program, RunningFarm& farm) {
     std::vector<int> at_work;
     while (at_work.empty() && !farm.has_ended()) {
       while (farm.engines(program).empty() && !farm.has_ended())
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      for (const int pid : farm.engines(program)) ::kill(pid, SIGSTOP);
       at_work = farm.engines(program);
     }
     return at_work;

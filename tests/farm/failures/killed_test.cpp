@@ -92,11 +92,13 @@ TEST_F(KilledFarm, LeavesNoEngineBehindThatHangs) {
   ASSERT_EQ(::mkfifo(queue.c_str(), 0600), 0);
   fake_povray("read nothing < '" + queue.string() + "'");  // waits for a writer that never comes
   RunningFarm farm(command({"--no-progress-limit", "0"}), root());
-  std::vector<int> engines;
-  while ((engines = farm.engines("povray")).size() < 2 && !farm.has_ended())
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  engines = farm.engines("povray");
+  std::vector<int> engines, before;
+  // The same ones at two looks: a shell of theirs that ends by itself is none that hangs.
+  do {
+    before = engines;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    engines = farm.engines("povray");
+  } while ((engines.size() < 2 || engines != before) && !farm.has_ended());
   EXPECT_GE(engines.size(), 2u) << farm.output();
   farm.signal(SIGKILL);
   EXPECT_EQ(farm.wait(), 128 + SIGKILL);

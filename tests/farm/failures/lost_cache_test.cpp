@@ -240,13 +240,14 @@ TEST_F(LostCache, DryRunsListWhatWouldGoAndTakeNothing) {
 TEST_F(LostCache, CleanAndAFarmKeepOutOfEachOthersWay) {
   fs::remove_all(out());
   fs::remove_all(cache());
-  fake_povray("sleep 0.5");
+  fake_povray(waits());
   RunningFarm farm(command(), root());
   while (cached_pictures() < 1 && !farm.has_ended()) ::usleep(5000);
   const FarmRun clean = run_command({"farm", "clean", "out", "--all"});
   EXPECT_EQ(clean.exit_code, 4) << clean.output;
   EXPECT_EQ(std::ranges::count(clean.output, '\n'), 1) << clean.output;
   EXPECT_THAT(clean.output, HasSubstr("a farm is at work in this directory"));
+  let_go_on();
   EXPECT_EQ(farm.wait(), 0) << farm.output();
   fake_povray();
   expect_mended(run(), 0);

@@ -61,7 +61,7 @@ TEST_F(RacingFarms, GoOnWhenOneOfThemIsKilled) {
 }
 
 TEST_F(RacingFarms, AreSeenByStatusAndNotDisturbedByGcOrByThatTheyAreLookedAt) {
-  fake_povray("sleep 0.5");
+  fake_povray(waits());
   RunningFarm farm(command(), root());
   wait_for_pictures(1, farm);
   const FarmRun gc = run_command({"farm", "gc", "cache", "--max-size", "0"});
@@ -71,6 +71,7 @@ TEST_F(RacingFarms, AreSeenByStatusAndNotDisturbedByGcOrByThatTheyAreLookedAt) {
   EXPECT_EQ(status.exit_code, 0) << status.output;
   EXPECT_THAT(status.output, testing::StartsWith("4 cells: "));
   EXPECT_THAT(status.output, HasSubstr("; a farm is at work"));
+  let_go_on();
   EXPECT_EQ(farm.wait(), 0) << farm.output();
   EXPECT_THAT(run_command({"farm", "status", "out"}).output, testing::StrEq("4 cells: 4 pass\n"));
   expect_mended(run(), 0);

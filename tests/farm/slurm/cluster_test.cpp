@@ -72,7 +72,8 @@ TEST_F(SlurmCluster, KeepsTheRestWhereOneJobFails) {
 }
 
 TEST_F(SlurmCluster, LosesNothingWithANodeThatDies) {
-  ToyWork toy(directory.path(), 24, 0.5);
+  ToyWork toy(directory.path(), 24, 2);  // what n2 is at must last until it is killed
+  options.chunks.target_seconds = 8;
   ClientProcess client(toy.work(), options, directory.path() / "log");
   ASSERT_TRUE(eventually_done(toy, 4));
   ASSERT_NE(cluster.slurm({"squeue", "-h", "-t", "running", "-w", "n2"}), "");
@@ -90,7 +91,8 @@ TEST_F(SlurmCluster, LosesNothingWithANodeThatDies) {
 }
 
 TEST_F(SlurmCluster, IsFoundAgainByAClientAfterTheFirstWasKilled) {
-  ToyWork toy(directory.path(), 12, 0.5);
+  ToyWork toy(directory.path(), 12, 2);  // must last until the second client looks
+  options.chunks.target_seconds = 8;
   {
     ClientProcess client(toy.work(), options, directory.path() / "log");
     ASSERT_TRUE(eventually_done(toy, 2));
@@ -106,16 +108,22 @@ TEST_F(SlurmCluster, IsFoundAgainByAClientAfterTheFirstWasKilled) {
 }
 
 TEST_F(SlurmCluster, GoesOnWithoutItsControllerForAWhile) {
-  ToyWork toy(directory.path(), 36, 0.4);
+  ToyWork toy(directory.path(), 36, 1);  // must last until the controller is gone
+  options.chunks.target_seconds = 5;
   ClientProcess client(toy.work(), options, directory.path() / "log");
   ASSERT_TRUE(eventually_done(toy, 4));
   cluster.stop_controller();
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+  // Until the client has missed it, or has ended.
+  const auto log = [&] { return read_file(directory.path() / "log", 1 << 20); };
+  ASSERT_TRUE(eventually([&] {
+    return log().find("does not answer") != std::string::npos ||
+           log().find("missing: ") != std::string::npos;
+  }));
   cluster.start_controller();
   EXPECT_EQ(client.wait(), 0);
   EXPECT_EQ(toy.results(), toy.wanted());
   EXPECT_THAT(toy.started(), SizeIs(36));
-  EXPECT_THAT(read_file(directory.path() / "log", 1 << 20), HasSubstr("does not answer"));
+  EXPECT_THAT(log(), HasSubstr("does not answer"));
 }
 
 TEST_F(SlurmCluster, IsEmptyAfterCtrlCAndTheNextRunMakesOnlyWhatIsMissing) {
