@@ -30,21 +30,36 @@ class GalleryScript : public ::testing::Test {
     fs::permissions(program, fs::perms::owner_all);
     const std::string command = quoted(LOBELIA_SOURCE_DIR "/scripts/gallery") + " " +
                                 quoted(program) + " grid.xml " + quoted(scratch_ / "a place") +
-                                " > " + quoted(scratch_ / "said");
+                                " > " + quoted(scratch_ / "said") + " 2> " +
+                                quoted(scratch_ / "told");
     const int status = std::system(command.c_str());
     said = read(scratch_ / "said");
     calls = read(scratch_ / "calls");
+    told = read(scratch_ / "told");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
   Scratch scratch_;
-  std::string said, calls;
+  std::string said, calls, told;
 };
 
 TEST_F(GalleryScript, the_last_line_is_the_path_of_the_gallery) {
   EXPECT_EQ(run(0), 0);
   EXPECT_THAT(said, HasSubstr("farm|grid.xml|-o|"));
   EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
+}
+
+TEST_F(GalleryScript, can_be_opened_after_the_farm_and_again_when_all_is_measured) {
+  EXPECT_EQ(run(0), 0);
+  const std::size_t first = calls.find("gallery|"), last = calls.rfind("gallery|");
+  EXPECT_LT(calls.find("farm|"), first);
+  for (const char* measured :
+       {"models|", "search|", "verify|stability|", "verify|paper|", "cost|"}) {
+    EXPECT_LT(first, calls.find(measured)) << measured;
+    EXPECT_GT(last, calls.find(measured)) << measured;
+  }
+  for (const char* measured : {"search", "stability", "paper", "cost"})
+    EXPECT_THAT(told, HasSubstr("gallery: " + std::string(measured) + ": begins; about "));
 }
 
 TEST_F(GalleryScript, cells_that_differ_are_shown_and_the_exit_code_says_so) {
