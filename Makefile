@@ -17,10 +17,13 @@ SEED    ?= $(shell date +%s)
 setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
 npm       = $(if $(filter no,$(SETUP)),@:,@scripts/web)
 configure = cmake --preset "$(PRESET)"
+# One more than processors: some tests wait.
+ctest     = ctest --preset "$(PRESET)" --parallel "$$(($(JOBS) + 1))"
+space     = $(subst ,, )
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery screenshots references test sanitize sanitize-short build bench bench-details bench-compare fuzz chaos lint docs install uninstall package clean
+.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-details bench-compare fuzz chaos lint docs install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -28,7 +31,7 @@ help: ## this list
 	@echo
 	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
 	@echo 'PREFIX (where install copies to), GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED,'
-	@echo 'QUICK=yes, BENCH (where figures of speed are kept), BASE (a commit)'
+	@echo 'QUICK=yes, BENCH (where figures of speed are kept), BASE (a commit), GROUPS (of long tests), ONLY (some faults)'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	@echo 'make gallery: from a fresh clone 8 to 10 minutes on 2 cores, plus 1 or 2 to install missing packages'
@@ -50,13 +53,31 @@ references: ## measures how far ours and every engine are from the formulas, int
 	$(build) --target lobelia lobelia_image_io
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
-test: ## builds everything and runs the test suite
+test: ## builds the program and its short tests, and runs these
 	$(setup) build engines browser shaders slurm python packaging docs
 	$(npm)
 	$(configure)
-	$(build)
-	@# One more than processors: some tests wait.
-	ctest --preset "$(PRESET)" --parallel "$$(($(JOBS) + 1))"
+	$(build) --target short_tests
+	$(ctest) --label-regex -short
+
+test-all: ## the short tests and the long ones (tests/suites.txt): browsers, a cluster, packages, all engines and models
+	$(setup) build engines browser shaders slurm python packaging docs
+	$(npm)
+	$(configure)
+	$(build) --target all bench_programs
+	$(ctest)
+
+test-long: ## the long tests of some GROUPS, as in GROUPS='pages cli'
+	$(setup) build engines browser shaders slurm python packaging docs
+	$(npm)
+	$(configure)
+	$(build) --target all bench_programs
+	$(ctest) --label-regex -long-\($(subst $(space),\|,$(strip $(GROUPS)))\)
+
+mutants: ## plants faults in a copy of the source, one at a time, and says which test finds each (an hour); ONLY=WORD
+	$(setup) build engines browser shaders slurm python packaging docs mutants
+	$(npm)
+	tests/mutants/plant --long --table docs/mutants.md $(if $(ONLY),--only "$(ONLY)") build/mutants
 
 sanitize: ## runs the suite in the presets asan and tsan, without engines, browsers and what is slow
 	$(setup) build
@@ -102,7 +123,7 @@ fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel "$(JOBS)"
 	$(configure)
-	$(build) --target test_renderer_random_scenes test_formulas_random_scenes
+	$(build) --target test_renderer_random_scenes test_formulas
 	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
 
 chaos: ## farms to which faults happen at random, for MINUTES (10); SEED=N begins with that round

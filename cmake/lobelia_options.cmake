@@ -46,12 +46,13 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
 #define LOBELIA_PROGRAM R\"lobelia(@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/lobelia)lobelia\"
 ")
 
-# With sanitizers and with LOBELIA_UNITY the files of a target are compiled as one. Sanitizers optimise only rooms that
-# compute, which compiles fastest. LOBELIA_UNITY, for builds from scratch, compiles all other rooms at -O1.
+# With sanitizers and with LOBELIA_UNITY up to 32 files of a target are compiled as one: more would leave one processor
+# at work alone at the end. Sanitizers optimise only rooms that compute, which compiles fastest. LOBELIA_UNITY, for builds
+# from scratch, compiles all other rooms at -O1.
 set(LOBELIA_COMPUTING_ROOMS core renderer compare formulas accuracy studies)
 function(lobelia_compile_quickly target room)
   if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32)
   endif()
   if(LOBELIA_SANITIZE AND room IN_LIST LOBELIA_COMPUTING_ROOMS)
     target_compile_options(${target} PRIVATE -O1)
@@ -78,6 +79,8 @@ function(lobelia_module name)
   endif()
 endfunction()
 
+set(LOBELIA_ALONE "" CACHE STRING "Sources that are compiled by themselves where others are not, as they will change: make mutants")
+
 # lobelia_room(core LINK fmt::fmt): a library of all .cpp files in the room's folder. FOLDER is a subfolder to use instead.
 # EXCEPT and ALONE are regular expressions of paths: files outside of the room, and files that are compiled by themselves
 # because they share names with others.
@@ -97,5 +100,7 @@ function(lobelia_room name)
     list(FILTER sources INCLUDE REGEX "${ARG_ALONE}")
     set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
+  list(TRANSFORM LOBELIA_ALONE PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE alone)
+  set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   lobelia_compile_quickly(lobelia_${name} ${name})
 endfunction()

@@ -133,12 +133,12 @@ TEST_F(XmlSchema, AllowsTheElementsInAnyOrder) {
   EXPECT_EQ(checked.exit_code, 0) << checked.output_tail;
 }
 
-struct Mistake {
+struct SchemaMistake {
   const char *right, *wrong;
 };
 
 /// Both refuse each mistake, and read the text without it.
-void expect_refused(const std::string& right, std::span<const Mistake> mistakes,
+void expect_refused(const std::string& right, std::span<const SchemaMistake> mistakes,
                     const std::function<bool(const std::string&)>& read,
                     const std::function<bool(const std::string&)>& valid) {
   ASSERT_TRUE(read(right) && valid(right));
@@ -158,7 +158,7 @@ TEST_F(XmlSchema, RefusesMistakesInAScene) {
       "<rgb name=\"irradiance\" value=\"1 .5 2e3\"/></emitter>"
       "<bsdf type=\"phong_rdf\" id=\"m\"><float name=\"exponent\" value=\"8\"/></bsdf>"
       "<shape type=\"sphere\"><point name=\"center\" x=\"1\"/><ref id=\"m\"/></shape>");
-  const Mistake mistakes[] = {
+  const SchemaMistake mistakes[] = {
       {"<emitter type", "<emiter type"},
       {"\"phong_rdf\"", "\"phong\""},
       {"\"exponent\"", "\"exponnent\""},
@@ -197,7 +197,7 @@ TEST_F(XmlSchema, RefusesMistakesInAGrid) {
       "<film width=\"8\" height=\"8\"/><axis name=\"model\" values=\"phong_rdf, modified_phong\"/>"
       "<list><axis name=\"exponent\" values=\"8, 16\"/></list>"
       "<exclude model=\"phong_rdf\" exponent=\"8\"/><engine name=\"analytic\"/></grid>";
-  const Mistake mistakes[] = {
+  const SchemaMistake mistakes[] = {
       {"<film ", "<flim "},
       {"<axis name=\"model\"", "<axis name=\"modell\""},
       {"width=\"8\"", "width=\"0\""},

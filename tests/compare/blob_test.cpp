@@ -29,13 +29,13 @@ constexpr double kBackground = 0.25, kPeak = 4, kMajor = 14, kMinor = 5, kTilt =
 constexpr FilmPoint kMiddle{81.37, 70.84};
 
 /// A Gaussian of those half-widths.
-double gaussian(double x, double y) {
+double hill(double x, double y) {
   const double c = std::cos(kTilt), s = std::sin(kTilt), dx = x - kMiddle.x, dy = y - kMiddle.y;
   const double u = (c * dx + s * dy) / kMajor, v = (-s * dx + c * dy) / kMinor;
   return kPeak * std::exp2(-u * u - v * v);
 }
 Image tilted() {
-  return image_of(170, 150, [](double x, double y) { return kBackground + gaussian(x, y); });
+  return image_of(170, 150, [](double x, double y) { return kBackground + hill(x, y); });
 }
 
 BlobProfiles blobs_of(const NamedImages& images, const BlobOptions& options = {}) {
@@ -93,8 +93,8 @@ TEST(Blob, PutsADifferenceIntoTheZoneOfTheReference) {
   const Image b = tilted();
   const auto with = [&](double from, double to) {
     return image_of(170, 150, [&](double x, double y) {
-      const double share = gaussian(x, y) / kPeak;
-      return kBackground + gaussian(x, y) + (share >= from && share < to ? 0.5 : 0);
+      const double share = hill(x, y) / kPeak;
+      return kBackground + hill(x, y) + (share >= from && share < to ? 0.5 : 0);
     });
   };
   const std::array<std::pair<double, double>, kZoneCount> inside = {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/compare/spots.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -75,8 +76,8 @@ std::array<double, kFigures> coverage(bool given, int draws) {
 }
 
 void expect_coverage(bool given) {
-  const auto within = coverage(given, 25);
-  // 95.4 % are expected of a normal distribution; the spread of a share of 200 is 1.5 %.
+  const auto within = coverage(given, 8 * more_samples());
+  // 95.4 % are expected of a normal distribution; the spread of a share of 64 is 2.6 %, of 192 1.5 %.
   for (std::size_t f = 0; f < kFigures; ++f) {
     EXPECT_GE(within[f], 0.88) << kNames[f];
     EXPECT_LE(within[f], 0.995) << kNames[f];

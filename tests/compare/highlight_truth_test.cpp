@@ -7,6 +7,7 @@
 #include "farm/profile_scene.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "tests/compare/profiled_scene.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -103,14 +104,17 @@ const records::LobeExplanation& of(const records::HighlightFigures& figures,
   return *std::ranges::find(figures.explanations, family, &records::LobeExplanation::family);
 }
 
-/// 68.3 and 95.4 % are expected within one and two standard errors. Of 120 pictures these shares spread by 4.2 and 1.9 %,
-/// and three of these spreads are allowed. An error that most pictures are well within would be too large. A highlight has few
-/// grains of a texture, and a spread from few is not normal: there 85 % are required within two.
+/// 68.3 and 95.4 % are expected within one and two standard errors, and three spreads of these shares are allowed. An error
+/// that most pictures are well within would be too large. A highlight has few grains of a texture, and a spread from few is
+/// not normal: there 85 % are required within two.
 void expect_coverage(Conditions how, unsigned seed) {
-  constexpr int kPictures = 120;
+  const int pictures = 40 * more_samples();
+  const auto least = [&](double share) {
+    return (share - 3 * std::sqrt(share * (1 - share) / pictures)) * pictures;
+  };
   std::mt19937 random(seed);
   int within_one = 0, within_two = 0, not_excluded = 0;
-  for (int k = 0; k < kPictures; ++k) {
+  for (int k = 0; k < pictures; ++k) {
     const std::string family = std::array{"phong", "blinn_phong", "ggx"}[std::size_t(k % 3)];
     const Drawn drawn(random, family, how.second_light && k % 3 == 2 ? Conditions{} : how);
     const auto figures = drawn.measured(drawn.image);
@@ -123,10 +127,10 @@ void expect_coverage(Conditions how, unsigned seed) {
     within_two += away <= 2;
     not_excluded += one.deviations_from_best.value() < 2;
   }
-  EXPECT_GE(within_one, (0.683 - 3 * 0.042) * kPictures);
-  EXPECT_GE(within_two, (how.textured ? 0.85 : 0.954 - 3 * 0.019) * kPictures);
-  EXPECT_LE(within_one, 0.90 * kPictures);
-  EXPECT_GE(not_excluded, (0.954 - 3 * 0.019) * kPictures);
+  EXPECT_GE(within_one, least(0.683));
+  EXPECT_GE(within_two, how.textured ? 0.85 * pictures : least(0.954));
+  EXPECT_LE(within_one, 0.90 * pictures);
+  EXPECT_GE(not_excluded, least(0.954));
   testing::Test::RecordProperty("withinOne", within_one);
   testing::Test::RecordProperty("withinTwo", within_two);
   testing::Test::RecordProperty("notExcluded", not_excluded);
@@ -146,7 +150,7 @@ TEST(HighlightTruth, LiesWithinTheErrorBarOnATexture) { expect_coverage({.textur
 
 TEST(HighlightTruth, OfGgxIsNeverTakenForACosineNorTheOtherWayRound) {
   std::mt19937 random(6);
-  for (int k = 0; k < 30; ++k)
+  for (int k = 0; k < 10 * more_samples(); ++k)
     for (const std::string family : {"phong", "blinn_phong", "ggx"}) {
       const auto figures = [&] {
         const Drawn drawn(random, family, {});

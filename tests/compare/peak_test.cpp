@@ -115,7 +115,7 @@ TEST(Peak, OfOneBrightPixelIsThatPixel) {
 
 TEST(Peak, OfNothingIsNone) {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double value : {0.0, -1.0, kNaN, infinity, -infinity}) {
+  for (const double value : {0.0, -1.0, std::nan(""), infinity, -infinity}) {
     const Peak peak = locate_peak(field_of(3, 3, [&](double, double) { return value; }));
     EXPECT_EQ(peak.found, PeakFound::kNone) << value;
     EXPECT_TRUE(std::isnan(peak.place.x) && std::isnan(peak.value)) << value;

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "gallery/cell_page.hpp"
 #include "gallery/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
@@ -81,6 +83,28 @@ TEST(FirstScreen, SaysWhatCameOutAndLinksTheFarthestCell) {
   EXPECT_EQ(index.select_nodes("//div[@class='pair']//img").size(), 2u);
   EXPECT_THAT(index.select_node("//section[@class='findings']//li").node().text().get(),
               HasSubstr("Farthest beyond its limit"));
+}
+
+TEST(FirstScreen, CountsTheCellsThatPassAndThatDiffer) {
+  for (const auto& [pass, differ, sentence] :
+       {std::tuple(1, 0, "All 1 highlights agree with POV-Ray, "),
+        {3, 0, "All 3 highlights agree with POV-Ray, "},
+        {2, 2, "2 of 4 highlights agree with POV-Ray; 2 differ."},
+        {0, 1, "0 of 1 highlights agree with POV-Ray; 1 differs."}}) {
+    FakeFarm farm;
+    farm.leave_out({FakeFarm::kPass, FakeFarm::kDiffers, FakeFarm::kFailed, FakeFarm::kMissing});
+    for (int i = 0; i < pass + differ; ++i)
+      farm.add_cell("cell" + std::to_string(i), i < pass ? "pass" : "differs",
+                    {{"model", "phong_rdf"}, {"exponent", std::to_string(16 + i)}});
+    write_gallery(farm.directory());
+    EXPECT_THAT(Site(farm.directory())
+                    .page("index.html")
+                    .select_node("//p[@class='lead']")
+                    .node()
+                    .text()
+                    .get(),
+                HasSubstr(sentence));
+  }
 }
 
 TEST(FirstScreen, CitesTheStudyWhereItsGridNamesTheAuthors) {

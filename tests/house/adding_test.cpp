@@ -15,8 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const fs::path kRoot = LOBELIA_SOURCE_DIR;
-
 /// Text in place of text, in a file that is copied or in one that gets a line more.
 using Renames = std::vector<std::pair<std::string, std::string>>;
 

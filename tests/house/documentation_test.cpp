@@ -14,8 +14,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 
-const fs::path kRoot = LOBELIA_SOURCE_DIR;
-
 std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
   std::set<std::string> found;
   for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)

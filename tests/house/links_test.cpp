@@ -7,7 +7,6 @@
 #include <set>
 #include <sstream>
 
-#include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
 
 namespace house {
@@ -16,7 +15,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-const fs::path kRoot = LOBELIA_SOURCE_DIR;
 using Problems = std::vector<std::string>;
 
 /// Without fenced code, whose # and [] mean other things.

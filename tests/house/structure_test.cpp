@@ -18,8 +18,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
 
-const fs::path kRoot = LOBELIA_SOURCE_DIR;
-
 // ---- arrows between rooms
 
 /// What each room may see besides itself. tests, bench and fuzz may see everything.

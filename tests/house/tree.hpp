@@ -15,9 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "lobelia_paths.hpp"
+
 namespace house {
 
 namespace fs = std::filesystem;
+
+inline const fs::path kRoot = LOBELIA_SOURCE_DIR;
 
 inline std::string read(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

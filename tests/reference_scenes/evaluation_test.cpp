@@ -324,7 +324,7 @@ double peak_of(const std::vector<Rgb>& pixels) {
   for (const Rgb& pixel : pixels) peak = std::max(peak, max_component(pixel));
   return peak;
 }
-double apart(Rgb a, Rgb b) {
+double difference(Rgb a, Rgb b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
@@ -337,7 +337,7 @@ TEST(Evaluation, InDoubleIsThatIn50Digits) {
     const double peak = peak_of(fine);
     ASSERT_GT(peak, 0) << name;
     for (std::size_t i = 0; i < fine.size(); ++i) {
-      const double here = ring[i] ? 0 : apart(fine[i], quick[i]) / peak;
+      const double here = ring[i] ? 0 : difference(fine[i], quick[i]) / peak;
       if (here > worst) worst = here, where = name;
     }
   };
@@ -363,7 +363,7 @@ TEST(Evaluation, InDoubleHoldsInTheHardCasesOfSizeAndDistance) {
       const auto fine = truth::evaluate(scene, Digits::kFifty), quick = picture(scene);
       const double peak = peak_of(fine);
       for (std::size_t i = 0; i < fine.size(); ++i)
-        worst = std::max(worst, apart(fine[i], quick[i]) / peak);
+        worst = std::max(worst, difference(fine[i], quick[i]) / peak);
     }
   EXPECT_LT(worst, 5e-6);  // measured: 1.9e-6 from 1e7 radii away, nearer 8.7e-10
 }

@@ -14,6 +14,7 @@
 #include "renderer/peak_bound.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render.hpp"
+#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -40,14 +41,6 @@ std::vector<Filter> all_filters() {
 }
 
 std::string label(Filter filter) { return fmt::format("{} {}", name(filter), filter.radius); }
-
-Material matt(double albedo) {
-  Material m;
-  m.highlight = {*find_model("phong_rdf"), *find_lobe("cosine"), {}, 32};
-  m.specular_reflectance = {};
-  m.diffuse_reflectance = {albedo, albedo, albedo};
-  return m;
-}
 
 TEST(EveryFilter, LeavesAnEvenSkyExactlyAsItIs) {
   Scene scene;

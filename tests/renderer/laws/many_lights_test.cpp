@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManyLights, testing::Bool(), [](const auto& info
 
 TEST_P(ManyLights, AreAsBrightAsTheSumOverEachWithinTheNoise) {
   Random random(GetParam() ? 4 : 5);
-  for (int k = 0; k < 10; ++k) {
+  for (int k = 0; k < 4; ++k) {
     Scene scene = under_many_lights(random, GetParam());
     RenderOptions drawn, summed;
     summed.experiment.sum_all_lights = true;
@@ -233,7 +233,7 @@ TEST_P(ManyLights, AreTheSameWithEveryEffectForcedWithinTheNoise) {
     RenderOptions drawn, forced;
     forced.effects = EffectPolicy::kAll;
     Blocks blocks[2];
-    for (int seed = 0; seed < 64; ++seed) {
+    for (int seed = 0; seed < 32; ++seed) {
       scene.sampler.seed = std::uint64_t(2 * seed);
       blocks[0].add(render(scene, drawn).image);
       ++scene.sampler.seed;
