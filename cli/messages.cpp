@@ -86,7 +86,7 @@ void ProgressLine::show(double fraction, std::string_view what) {
   const std::scoped_lock lock(mutex_);
   const auto now = Clock::now();
   const std::chrono::duration<double> since = now - last_drawn_, elapsed = now - started_;
-  if (since.count() < (terminal_ ? 0.1 : 10.0) && !(terminal_ && !drawn_)) return;
+  if (since.count() < (terminal_ ? 0.1 : 5.0) && !(terminal_ && !drawn_)) return;
   last_drawn_ = now;
   fraction = std::clamp(fraction, 0.0, 1.0);
   const double left = fraction > 0 ? elapsed.count() * (1 - fraction) / fraction : 0;

@@ -25,7 +25,7 @@ void warn_of(const Highlight& highlight);
 
 class ProgressLine {
  public:
-  /// Draws nothing with --quiet; where stderr is not a terminal, a plain line every 10 seconds.
+  /// Draws nothing with --quiet; where stderr is not a terminal, a plain line every 5 seconds.
   ProgressLine();
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
