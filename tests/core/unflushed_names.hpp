@@ -82,7 +82,7 @@ int syncfs(int file) noexcept {
   namespace here = lobelia::unflushed;
   static const auto call = here::real<int(int)>("syncfs");
   const std::scoped_lock lock(here::mutex);
-  ::clock_gettime(CLOCK_REALTIME_COARSE, &here::all_flushed);
+  ::clock_gettime(CLOCK_REALTIME, &here::all_flushed);
   ++here::flushes;
   return call(file);
 }
