@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -19,7 +20,8 @@
 namespace lobelia::unflushed {
 
 inline std::mutex mutex;
-inline bool is_watching = false;
+/// Without a watch nothing is locked, so that a fork at any time is safe.
+inline std::atomic<bool> is_watching = false;
 inline std::set<ino_t> flushed;
 inline timespec all_flushed{};  ///< what was written before this is on the disk
 inline std::vector<std::string> names;
@@ -41,8 +43,8 @@ inline void note(const std::filesystem::path& path) {
 }
 
 inline void note_at(int directory, const char* path) {
-  const std::scoped_lock lock(mutex);
   if (!is_watching) return;
+  const std::scoped_lock lock(mutex);
   if (path[0] == '/' || directory == AT_FDCWD) return note(path);
   note(std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(directory)) / path);
 }
@@ -73,17 +75,21 @@ int fsync(int file) {
   namespace here = lobelia::unflushed;
   static const auto call = here::real<int(int)>("fsync");
   struct stat status {};
-  const std::scoped_lock lock(here::mutex);
-  if (::fstat(file, &status) == 0) here::flushed.insert(status.st_ino);
-  ++here::flushes;
+  if (here::is_watching && ::fstat(file, &status) == 0) {
+    const std::scoped_lock lock(here::mutex);
+    here::flushed.insert(status.st_ino);
+    ++here::flushes;
+  }
   return call(file);
 }
 int syncfs(int file) noexcept {
   namespace here = lobelia::unflushed;
   static const auto call = here::real<int(int)>("syncfs");
-  const std::scoped_lock lock(here::mutex);
-  ::clock_gettime(CLOCK_REALTIME, &here::all_flushed);
-  ++here::flushes;
+  if (here::is_watching) {
+    const std::scoped_lock lock(here::mutex);
+    ::clock_gettime(CLOCK_REALTIME, &here::all_flushed);
+    ++here::flushes;
+  }
   return call(file);
 }
 int rename(const char* from, const char* to) noexcept {
