@@ -92,7 +92,7 @@ sanitize-short: ## the part of it that reads scenes and pictures, and the farm's
 	$(setup) build
 	cmake --preset asan
 	cmake --build --preset asan --parallel "$(JOBS)" --target reader_tests
-	ctest --preset asan --parallel "$(JOBS)" --label-regex short-.*readers
+	ctest --preset asan --parallel "$(JOBS)" --label-regex 'short-.*readers'
 
 build: ## builds everything into build/release
 	$(setup) build

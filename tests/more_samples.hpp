@@ -13,7 +13,7 @@ inline int more_samples() {
   return times >= 1 && times <= 64 ? times : 1;
 }
 
-/// Of a long list of cases one in three is enough for the short suite; with more samples all of them.
+/// Whether to skip this case: the short suite runs every third case of a long list, the long suite runs them all.
 inline bool is_left_out(std::size_t number) { return more_samples() == 1 && number % 3 != 0; }
 
 }  // namespace lobelia

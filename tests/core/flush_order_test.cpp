@@ -1,4 +1,4 @@
-// What the disk may lose: no file gets its name, and nobody is told of it, before its content is flushed.
+// A power cut loses no finished file: content is flushed before a file gets its name and before anyone is told.
 #include <gmock/gmock.h>
 
 #include "core/files.hpp"

@@ -36,7 +36,7 @@ struct Lifeline {
     for (const int end : ends_) ::close(end);
   }
   int input() const { return ends_[0]; }
-  /// Of those that have it besides us, who let go of it here.
+  /// Closes our own end first, so that only other processes count.
   bool nobody_lives() {
     ::close(std::exchange(ends_[0], -1));
     pollfd writer{ends_[1], 0, 0};

@@ -11,7 +11,7 @@ TEST_F(FarmTest, GivesNoResultAndNoCellItsNameBeforeItIsFlushed) {
   const unflushed::Watch watch;
   EXPECT_EQ(run_farm(some, out(), {}).cells, 2u);
   EXPECT_GT(unflushed::flushes, 0);
-  // What is written into a draft is flushed with it, before the draft becomes a result. Then no .part is in it.
+  // Files in a draft may get their names early. The whole draft is flushed before it becomes a result.
   for (const std::string& name : unflushed::names)
     EXPECT_TRUE(name.ends_with(".part") && name.find("cell.json") == name.npos) << name;
 }

@@ -81,7 +81,7 @@ TEST(Suites, that_name_other_tests_are_found) {
               ElementsAre("farm P.gone", "GalleryWeb gone"));
 }
 
-/// What scripts/change says of these files.
+/// The groups of long tests that scripts/change prints for these files.
 std::string groups_of(const std::string& files) {
   const Ran ran = run(quoted(kRoot / "scripts/change") + " --groups " + files + " 2>/dev/null");
   EXPECT_EQ(ran.exit_code, 0);
