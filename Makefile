@@ -15,6 +15,7 @@ SEED    ?= $(shell date +%s)
 
 # SETUP=no: for systems whose packages have other names than Debian's.
 setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
+for_tests = build engines browser shaders slurm python packaging docs
 npm       = $(if $(filter no,$(SETUP)),@:,@scripts/web)
 configure = cmake --preset "$(PRESET)"
 # One more than processors: some tests wait.
@@ -54,28 +55,28 @@ references: ## measures how far ours and every engine are from the formulas, int
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
 test: ## builds the program and its short tests, and runs these
-	$(setup) build engines browser shaders slurm python packaging docs
+	$(setup) $(for_tests)
 	$(npm)
 	$(configure)
 	$(build) --target short_tests
 	$(ctest) --label-regex -short
 
 test-all: ## the short tests and the long ones (tests/suites.txt): browsers, a cluster, packages, all engines and models
-	$(setup) build engines browser shaders slurm python packaging docs
+	$(setup) $(for_tests)
 	$(npm)
 	$(configure)
 	$(build) --target all bench_programs
 	$(ctest)
 
 test-long: ## the long tests of some GROUPS, as in GROUPS='pages cli'
-	$(setup) build engines browser shaders slurm python packaging docs
+	$(setup) $(for_tests)
 	$(npm)
 	$(configure)
 	$(build) --target all bench_programs
 	$(ctest) --label-regex -long-\($(subst $(space),\|,$(strip $(GROUPS)))\)
 
 mutants: ## plants faults in a copy of the source, one at a time, and says which test finds each (an hour); ONLY=WORD
-	$(setup) build engines browser shaders slurm python packaging docs mutants
+	$(setup) $(for_tests) mutants
 	$(npm)
 	tests/mutants/plant --long --table docs/mutants.md $(if $(ONLY),--only "$(ONLY)") build/mutants
 
