@@ -79,7 +79,9 @@ function(lobelia_module name)
   endif()
 endfunction()
 
-set(LOBELIA_ALONE "" CACHE STRING "Sources that are compiled by themselves where others are not, as they will change: make mutants")
+# For `make mutants`, which changes one file at a time.
+set(LOBELIA_ALONE "" CACHE STRING "Sources that are compiled by themselves where others are not")
+option(LOBELIA_SHARED_ROOMS "A shared library of each room: a changed file links one of them anew, and no program" OFF)
 
 # lobelia_room(core LINK fmt::fmt): a library of all .cpp files in the room's folder. FOLDER is a subfolder to use instead.
 # EXCEPT and ALONE are regular expressions of paths: files outside of the room, and files that are compiled by themselves
@@ -92,7 +94,11 @@ function(lobelia_room name)
   if(ARG_EXCEPT)
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCEPT}")
   endif()
-  add_library(lobelia_${name} STATIC ${sources})
+  set(type STATIC)
+  if(LOBELIA_SHARED_ROOMS)
+    set(type SHARED)
+  endif()
+  add_library(lobelia_${name} ${type} ${sources})
   add_library(lobelia::${name} ALIAS lobelia_${name})
   set_target_properties(lobelia_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(lobelia_${name} PUBLIC lobelia_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})

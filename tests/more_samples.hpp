@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <vector>
 
 namespace lobelia {
 
@@ -14,6 +15,18 @@ inline int more_samples() {
 }
 
 /// Whether to skip this case: the short suite runs every third case of a long list, the long suite runs them all.
-inline bool is_left_out(std::size_t number) { return more_samples() == 1 && number % 3 != 0; }
+inline bool is_left_out(std::size_t number, std::size_t every = 3) {
+  return more_samples() == 1 && number % every != 0;
+}
+
+/// Those of a list that are not left out.
+template <typename List>
+auto some_of(const List& all, std::size_t every = 3) {
+  std::vector<typename List::value_type> some;
+  std::size_t number = 0;
+  for (const auto& one : all)
+    if (!is_left_out(number++, every)) some.push_back(one);
+  return some;
+}
 
 }  // namespace lobelia

@@ -11,6 +11,7 @@
 #include "renderer/render.hpp"
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/json.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -185,9 +186,11 @@ FilmPoint brightest_place(const Scene& scene) {
 }
 
 TEST(HighlightOfAScene, HasItsPeakWithinAFiftiethOfAPixelOfTheFormulas) {
+  std::size_t number = 0;
   for (const char* model : {"phong_rdf", "modified_phong", "blinn_phong_rdf"})
     for (const double n : {8.0, 32.0, 256.0, 1024.0, 4096.0})
       for (const double x : {-1.0, -0.3, 1.7}) {
+        if (is_left_out(number++, 4)) continue;
         Scene scene = scene_with(model, n);
         scene.film = {320, 240};
         scene.lights[0] = DirectionalLight{normalize({x, -0.4, -1}), {2, 2, 2}};

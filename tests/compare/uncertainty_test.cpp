@@ -15,6 +15,7 @@
 #include "core/constants.hpp"
 #include "core/error.hpp"
 #include "tests/compare/noisy_pictures.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -161,7 +162,7 @@ TEST(ZTest, FindsNothingInNoiseMoreOftenThanItsSignificanceSays) {
   for (const int count : {2, 4})
     for (const NoiseKind kind : fixtures::kNoiseKinds) {
       const Image truth = fixtures::expectation(kind);
-      const int trials = kind == NoiseKind::kSilhouette ? 60 : 20;
+      const int trials = (kind == NoiseKind::kSilhouette ? 20 : 7) * more_samples();
       int against_truth = 0, against_another = 0;
       for (int trial = 0; trial < trials; ++trial) {
         const auto seed = std::uint64_t(trial);

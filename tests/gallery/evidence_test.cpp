@@ -16,6 +16,7 @@
 #include "records/comparison.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -160,7 +161,7 @@ TEST_F(GalleryEvidence, with_any_bit_flipped_is_never_a_pass) {
   for (const char* name :
        {"lobelia.exr", "povray.exr", "povray.png", "lobelia-povray.png", "lobelia-povray.json",
         "povray.json", "profile.json", "scene.xml", "povray.log", "cell.json"})
-    for (int times = 0; times < 12; ++times) {
+    for (int times = 0; times < 4 * more_samples(); ++times) {
       const std::string text = read_file(file(name), kMostBytes);
       const std::size_t bit = random() % (8 * text.size());
       SCOPED_TRACE(name + (" bit " + std::to_string(bit)));

@@ -1,6 +1,7 @@
 """Lobes and models against formulas that are written here by hand."""
 
 import decimal
+import functools
 import math
 
 import numpy as np
@@ -9,6 +10,11 @@ import pytest
 import lobelia
 
 EXPONENTS = [1.0, 16.0, 64.0, 1000.0]
+
+
+@functools.cache
+def catalogue():
+    return lobelia.catalogue(16)
 
 
 def cs(order, s, n):
@@ -212,7 +218,7 @@ def test_an_rdf_reflects_all_light_at_normal_incidence():
 
 @pytest.mark.parametrize("model", lobelia.models())
 def test_radiance_is_coefficient_lobe_cosine_and_shadowing(model):
-    info = next(one for one in lobelia.catalogue().models if one.name == model)
+    info = next(one for one in catalogue().models if one.name == model)
     s, n, n_dot_l, n_dot_v = np.linspace(0, 1, 7), 16.0, np.array([[-0.5], [0.0], [0.25], [1.0]]), 0.6
     lit = np.where(n_dot_l > 0, n_dot_l, 1.0)
     factor = lit if info.applies_cosine else np.ones_like(lit)
@@ -231,8 +237,7 @@ def test_large_arrays_need_no_python_loop():
 
 
 def test_the_catalogue_names_every_model_and_lobe():
-    catalogue = lobelia.catalogue(16)
-    assert [one.name for one in catalogue.models] == lobelia.models()
-    assert [one.name for one in catalogue.lobes] == lobelia.lobes()
-    assert {one.model for one in catalogue.highlights} == set(lobelia.models())
-    assert {one.lobe for one in catalogue.highlights} == set(lobelia.lobes())
+    assert [one.name for one in catalogue().models] == lobelia.models()
+    assert [one.name for one in catalogue().lobes] == lobelia.lobes()
+    assert {one.model for one in catalogue().highlights} == set(lobelia.models())
+    assert {one.lobe for one in catalogue().highlights} == set(lobelia.lobes())

@@ -10,6 +10,7 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"
 #include "renderer/render.hpp"
+#include "tests/more_samples.hpp"
 #include "tests/renderer/random_scene.hpp"
 
 namespace lobelia {
@@ -71,8 +72,9 @@ double apart(Rgb a, Rgb b) {
 }
 
 TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
+  const int scenes = 200 * more_samples();
   int compared = 0, lit = 0;
-  expect_of_random_scenes(SceneKind::kExact, 600, [&](const Scene& random_one, Random& random) {
+  expect_of_random_scenes(SceneKind::kExact, scenes, [&](const Scene& random_one, Random& random) {
     const Scene scene = told_by_formulas(random_one);
     RenderOptions options;
     options.allow_fused = random.chance(0.5);
@@ -102,8 +104,8 @@ TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
     }
     return std::string();
   });
-  EXPECT_GT(compared, 5000);
-  EXPECT_GT(lit, 2000);
+  EXPECT_GT(compared, 8 * scenes);
+  EXPECT_GT(lit, 3 * scenes);
 }
 
 TEST(RandomScenes, InEachPrecisionAreWithinItsBoundOfTheSameInFloat64) {

@@ -39,7 +39,8 @@ TEST(CatalogueRecord, HasEveryModelLobeAndTheirCombinationsMeasured) {
 }
 
 TEST(CatalogueRecord, MeasuresThePaperMisprintAsTwiceTheEnergy) {
-  const Json record = as_json(catalogue_record(64));
+  const LobeId lobes[] = {*find_lobe("cosine")};
+  const Json record = as_json(catalogue_record(64, lobes));
   int found = 0;
   for (const Json& h : record.at("highlights"))
     if (h.at("model") == "modified_blinn_phong" && h.at("lobe") == "cosine") {
@@ -51,7 +52,8 @@ TEST(CatalogueRecord, MeasuresThePaperMisprintAsTwiceTheEnergy) {
 }
 
 TEST(CatalogueRecord, KnowsTheHalfWidthAndTheSupportOfALobe) {
-  const Json record = as_json(catalogue_record(100));
+  const LobeId lobes[] = {*find_lobe("cosine"), *find_lobe("cs16"), *find_lobe("schlick")};
+  const Json record = as_json(catalogue_record(100, lobes));
   const double degree = std::numbers::pi / 180;
   // cos^n is a half at arccos(2^(-1/n)); cs_k is 0 from 1 - cos = k/n on.
   EXPECT_NEAR(find(record.at("lobes"), "cosine").at("halfWidthDegrees").get<double>(),

@@ -15,6 +15,7 @@
 #include "studies/convert/range.hpp"
 #include "studies/convert/report.hpp"
 #include "studies/convert/rules.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia::conversion {
 namespace {
@@ -164,7 +165,7 @@ double plain_error(Measure measure, double n, double alpha) {
 
 TEST(Best, IsTheLeastOfAScanByAnotherImplementation) {
   for (const Measure measure : {Measure::kMax, Measure::kEnergy, Measure::kCiede2000})
-    for (const double n : {4.0, 8.0, 32.0, 512.0}) {
+    for (const double n : some_of(std::vector{4.0, 8.0, 32.0, 512.0})) {
       const double found = best(model("blinn_phong_heightfield"), n, kGgxModel, measure);
       double least = kInfinity, least_alpha = 0;
       for (double alpha = 0.02; alpha <= 1; alpha *= 1.01)
@@ -254,7 +255,7 @@ TEST(Conversion, HasFiniteFiguresOverTheWholeRange) {
     }
   };
   for (const char* name : {"phong_rdf", "blinn_phong_heightfield"})
-    for (const double n : {1e-3, 1.0, 1e4, 1e8})
+    for (const double n : some_of(std::vector{1e-3, 1.0, 1e4, 1e8}))
       for (const char* to : {"ggx", "modified_blinn_phong"})
         expect_finite(convert({model(name), model(to), n, 1, Measure::kMax}));
   for (const double alpha : {1e-4, 0.3, 1.0})

@@ -130,51 +130,36 @@ TEST(PointsOfTheSamePower, LightAFarSurfaceAsTheLampsDo) {
   }
 }
 
-class OfEverything : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    Options options;
-    options.effort = Effort::kQuick;
-    options.scenes = {{"all", everything()}};
-    tables_ = new std::vector<Table>(measure_effects(options));
-  }
-  static void TearDownTestSuite() { delete tables_; }
-  static const Table& table() { return tables_->at(0); }
-
- private:
-  static inline std::vector<Table>* tables_ = nullptr;
-};
-
-TEST_F(OfEverything, TheTableHasARowForEveryEffectThatIsOn) {
+TEST(TheTableOfEverything, HasARowForEveryEffectThatIsOnWithItsErrorAndTheRaysItSaves) {
+  Options options;
+  options.effort = Effort::kQuick;
+  options.scenes = {{"all", everything()}};
+  const Table table = measure_effects(options).at(0);
   std::vector<std::string> names{"everything"};
   for (const std::string& name : effects_that_are(true, make_plan(everything(), kAsCalledFor)))
     names.push_back("without " + name);
   std::vector<std::string> rows;
-  for (const Variant& variant : table().variants) {
+  for (const Variant& variant : table.variants) {
     rows.push_back(variant.name);
-    EXPECT_EQ(variant.errors.size(), table().errors.size());
+    EXPECT_EQ(variant.errors.size(), table.errors.size());
     EXPECT_GT(cost_of(variant).median, 0);
   }
   EXPECT_EQ(rows, names);
-  EXPECT_EQ(table().id, "effects-all");
-}
+  EXPECT_EQ(table.id, "effects-all");
 
-TEST_F(OfEverything, OnlyThatIsWithoutLoss) {
-  for (std::size_t e = 0; e < table().errors.size(); ++e) {
-    EXPECT_EQ(table().variants[0].errors[e].second, 0);
-    for (std::size_t i = 1; i < table().variants.size(); ++i)
-      EXPECT_GT(table().variants[i].errors[e].second, 1e-4) << table().variants[i].name;
+  for (std::size_t e = 0; e < table.errors.size(); ++e) {
+    EXPECT_EQ(table.variants[0].errors[e].second, 0);
+    for (std::size_t i = 1; i < table.variants.size(); ++i)
+      EXPECT_GT(table.variants[i].errors[e].second, 1e-4) << table.variants[i].name;
   }
-}
 
-TEST_F(OfEverything, RaysAddUpToWhatIsSaved) {
   const auto all = [](const Variant& variant) {
     const records::Rays& rays = variant.facts.value().rays.value();
     return double(rays.camera + rays.shadow + rays.mirror + rays.scattered);
   };
-  for (const Variant& variant : table().variants)
-    EXPECT_EQ(variant.facts->rays_saved, all(table().variants[0]) - all(variant)) << variant.name;
-  EXPECT_THAT(table().remarks, testing::Contains(HasSubstr("shadows")));
+  for (const Variant& variant : table.variants)
+    EXPECT_EQ(variant.facts->rays_saved, all(table.variants[0]) - all(variant)) << variant.name;
+  EXPECT_THAT(table.remarks, testing::Contains(HasSubstr("shadows")));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/mistakes.hpp"
 #include "studies/shader_check/report.hpp"
+#include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/studies/planted_mistakes.hpp"
 
@@ -225,11 +226,13 @@ shader_check::Observed observed_of(const Highlight& highlight,
 
 TEST(Explain, FindsEachMistakeOfItsCatalogueInEveryModel) {
   int found = 0;
+  std::size_t number = 0;
   for (const ModelId model : all_models()) {
     const Highlight highlight{model, *find_lobe("cosine")};
     for (const shader_check::Mistake& mistake : shader_check::mistakes()) {
       if ((mistake.applies && !mistake.applies(highlight)) || mistake.words == "its lobe is cosine")
         continue;
+      if (is_left_out(number++)) continue;
       const auto explanation =
           shader_check::explain(highlight, observed_of(highlight, mistake), mistake.of_roughness);
       EXPECT_TRUE(explanation.is_complete) << info(model).name << ": " << mistake.words;
@@ -239,7 +242,7 @@ TEST(Explain, FindsEachMistakeOfItsCatalogueInEveryModel) {
       found += explanation.mistakes.size() == 1 && explanation.mistakes[0] == mistake.id;
     }
   }
-  EXPECT_GE(found, 200);
+  EXPECT_GE(found, more_samples() == 1 ? 66 : 200);
 }
 
 TEST(FunctionsIn, AreThoseThatATextDefinesInAnyLanguage) {

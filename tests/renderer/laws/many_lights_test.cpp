@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManyLights, testing::Bool(), [](const auto& info
 
 TEST_P(ManyLights, AreAsBrightAsTheSumOverEachWithinTheNoise) {
   Random random(GetParam() ? 4 : 5);
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < (more_samples() == 1 ? 1 : 4); ++k) {
     Scene scene = under_many_lights(random, GetParam());
     RenderOptions drawn, summed;
     summed.experiment.sum_all_lights = true;
@@ -228,7 +228,7 @@ TEST_P(ManyLights, AreAsBrightAsTheSumOverEachWithinTheNoise) {
 
 TEST_P(ManyLights, AreTheSameWithEveryEffectForcedWithinTheNoise) {
   Random random(GetParam() ? 6 : 7);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < (more_samples() == 1 ? 1 : 2); ++k) {
     Scene scene = under_many_lights(random, GetParam());
     RenderOptions drawn, forced;
     forced.effects = EffectPolicy::kAll;

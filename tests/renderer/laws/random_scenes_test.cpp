@@ -10,6 +10,7 @@
 #include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/contact.hpp"
+#include "tests/more_samples.hpp"
 #include "tests/renderer/random_scene.hpp"
 
 namespace lobelia {
@@ -294,10 +295,10 @@ TEST(RandomScenes, AreTheSameBitForBitInBandsAsInOnePieceInAnyNumberOfThreads) {
       return fmt::format("{} in bands,\n{} in one piece\n", figures(streamed), figures(whole));
     return difference(whole.image, rows, "in bands");
   };
-  expect_of_random_scenes(SceneKind::kExact, 200, law);
-  expect_of_random_scenes(SceneKind::kAny, 100, law);
-  EXPECT_GT(several_bands, 100);
-  EXPECT_GT(noisy, 20);
+  expect_of_random_scenes(SceneKind::kExact, 70 * more_samples(), law);
+  expect_of_random_scenes(SceneKind::kAny, 35 * more_samples(), law);
+  EXPECT_GT(several_bands, 35 * more_samples());
+  EXPECT_GT(noisy, 7 * more_samples());
 }
 
 TEST(RandomScenes, AreFiniteAndNotNegative) {
