@@ -39,7 +39,7 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(setup) build engines
 	$(npm)
 	$(configure)
-	$(build) --target lobelia lobelia_image_io
+	@scripts/tell 'make gallery: building' & teller=$$!; $(build) --target lobelia lobelia_image_io; built=$$?; kill $$teller; exit $$built
 	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
 
 screenshots: ## pictures of every view of the gallery in OUT, for a desktop and a phone, into OUT-screenshots
@@ -65,22 +65,22 @@ test-all: ## the short tests and the long ones (tests/suites.txt): browsers, a c
 	$(setup) $(for_tests)
 	$(npm)
 	$(configure)
-	$(build) --target all bench_programs
+	$(build) --target all
 	$(ctest)
 
 test-long: ## the long tests of some GROUPS, as in GROUPS='pages cli'
 	$(setup) $(for_tests)
 	$(npm)
 	$(configure)
-	$(build) --target all bench_programs
+	$(build) --target all
 	$(ctest) --label-regex -long-\($(subst $(space),\|,$(strip $(GROUPS)))\)
 
 mutants: ## plants faults in a copy of the source, one at a time, and says which test finds each (an hour); ONLY=WORD
 	$(setup) $(for_tests) mutants
 	$(npm)
-	tests/mutants/plant --long --table docs/mutants.md $(if $(ONLY),--only "$(ONLY)") build/mutants
+	tests/mutants/plant --long --jobs "$(JOBS)" --table docs/mutants.md $(if $(ONLY),--only "$(ONLY)") build/mutants
 
-sanitize: ## runs the suite in the presets asan and tsan, without engines, browsers and what is slow
+sanitize: ## runs the suite in the presets asan and tsan, without engines, browsers and long tests
 	$(setup) build
 	cmake --preset asan
 	cmake --build --preset asan --parallel "$(JOBS)" --target quick_tests

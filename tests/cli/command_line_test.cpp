@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "run_lobelia.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -135,9 +136,11 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
 
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TemporaryDirectory directory;
+  std::size_t number = 0;
   for (const char* command :
        {"models", "models --json -", "engines", "engines --json -", "scene-format",
         "compare --list-metrics", "verify paper", "--help", "farm --help"}) {
+    if (is_left_out(number++, 4)) continue;
     const auto result =
         run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());
     EXPECT_EQ(result.exit_code, 4) << command << result.output_tail;

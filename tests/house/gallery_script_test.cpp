@@ -59,7 +59,7 @@ TEST_F(GalleryScript, can_be_opened_after_the_farm_and_again_when_all_is_measure
     EXPECT_GT(last, calls.find(measured)) << measured;
   }
   for (const char* measured : {"search", "stability", "paper", "cost"})
-    EXPECT_THAT(told, HasSubstr("gallery: " + std::string(measured) + ": begins; about "));
+    EXPECT_THAT(told, HasSubstr("gallery: measuring " + std::string(measured) + "; about "));
 }
 
 TEST_F(GalleryScript, cells_that_differ_are_shown_and_the_exit_code_says_so) {

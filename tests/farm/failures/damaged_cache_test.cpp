@@ -6,6 +6,7 @@
 
 #include "failing_farm.hpp"
 #include "tests/json.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -125,6 +126,7 @@ TEST_F(DamagedCache, BelievesNoHostileRecord) {
   std::mt19937 random(1);
   std::ranges::shuffle(hostile, random);
   for (std::size_t round = 0; round < kRounds && !HasFailure(); ++round) {
+    if (is_left_out(round, kRounds)) continue;
     for (std::size_t i = round; i < hostile.size(); i += kRounds)
       replace(hostile[i].first, hostile[i].second);
     const FarmRun second = run();
