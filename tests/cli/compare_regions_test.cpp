@@ -51,6 +51,19 @@ TEST_F(CompareRegions, IgnoredPixelsAndWhatIsCutOffAreNoDifference) {
   EXPECT_EQ(cut["metrics"]["mae.outside"], 0);
 }
 
+TEST_F(CompareRegions, OfASceneAreThePixelsOfItsSurfacesThatTheMaskHasToo) {
+  const std::string scene = kScenes + "head_on.xml";
+  ASSERT_EQ(run_lobelia({"render", scene, "-o", "ball.exr"}, directory_.path()).exit_code, 0);
+  const auto pixels = [&](std::vector<std::string> mask) {
+    mask.insert(mask.begin(), {"ball.exr", "ball.exr", "--scene", scene});
+    return record(mask, 0)["mask"]["pixels"].get<int>();
+  };
+  const int ball = pixels({});
+  EXPECT_GT(ball, 128 * 128);
+  EXPECT_LT(ball, 256 * 256 - 1000);
+  EXPECT_EQ(2 * pixels({"--mask", "rect:0,0,256,128"}), ball);
+}
+
 TEST_F(CompareRegions, OfAnotherSizeThanThePicturesAreAnErrorOfThePair) {
   const auto mask = compare({"a.exr", "b.exr", "--mask", "small.exr"});
   EXPECT_EQ(mask.exit_code, 3);

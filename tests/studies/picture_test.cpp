@@ -8,6 +8,7 @@
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "studies/cost/benchmarks.hpp"
+#include "studies/cost/scenes.hpp"
 #include "tests/canonical_scene.hpp"
 
 namespace lobelia::cost {
@@ -111,6 +112,17 @@ TEST(PictureTruth, IsTheSceneAsItStandsCoefficientIncluded) {
   const double rms = accuracy::rms_of_peak(Image(32, 32), ours);
   EXPECT_GT(rms, 0);
   EXPECT_LT(rms, 1);
+}
+
+TEST(PictureTruth, OfANoisySceneHasNoiseOfItsOwn) {
+  Scene s = below_sky(16);
+  s.sampler.sample_count = 64;
+  const accuracy::PictureTruth truth = accuracy::picture_truth(s, 64);
+  EXPECT_THAT(truth.how, HasSubstr("another seed"));
+  const Image ours = render(s, {}).image;
+  // The same random numbers would leave the rounding of float32.
+  EXPECT_GT(accuracy::rms_of_peak(ours, truth.image), 1e-4);
+  EXPECT_LT(accuracy::rms_of_peak(ours, truth.image), 0.1);
 }
 
 }  // namespace
