@@ -39,7 +39,7 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(setup) build engines
 	$(npm)
 	$(configure)
-	@scripts/tell 'make gallery: building' & teller=$$!; $(build) --target lobelia lobelia_image_io; built=$$?; kill $$teller; exit $$built
+	@scripts/tell 'make gallery: building' '' $(build) --target lobelia lobelia_image_io
 	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
 
 screenshots: ## pictures of every view of the gallery in OUT, for a desktop and a phone, into OUT-screenshots
