@@ -73,7 +73,7 @@ test-long: ## the long tests of some GROUPS, as in GROUPS='pages cli'
 	$(npm)
 	$(configure)
 	$(build) --target all
-	$(ctest) --no-tests=ignore --label-regex '-long-($(subst all_,[a-z]+_,$(subst $(space),|,$(strip $(GROUPS)))))'
+	$(ctest) --label-regex '-long-($(subst all_,[a-z]+_,$(subst $(space),|,$(strip $(GROUPS)))))'
 
 mutants: ## plants faults in a copy of the source, one at a time, and says which test finds each (an hour); ONLY=WORD
 	$(setup) $(for_tests) mutants

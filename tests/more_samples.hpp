@@ -14,7 +14,7 @@ inline int more_samples() {
   return times >= 1 && times <= 64 ? times : 1;
 }
 
-/// Whether to skip this case: the short suite runs every third case of a long list, the long suite runs them all.
+/// Whether to skip this case: the short suite runs one of `every` cases of a long list, the long suite runs them all.
 inline bool is_left_out(std::size_t number, std::size_t every = 3) {
   return more_samples() == 1 && number % every != 0;
 }

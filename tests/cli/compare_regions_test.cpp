@@ -51,7 +51,7 @@ TEST_F(CompareRegions, IgnoredPixelsAndWhatIsCutOffAreNoDifference) {
   EXPECT_EQ(cut["metrics"]["mae.outside"], 0);
 }
 
-TEST_F(CompareRegions, OfASceneAreThePixelsOfItsSurfacesThatTheMaskHasToo) {
+TEST_F(CompareRegions, AMaskBesideASceneHasOnlyThePixelsThatShowASurface) {
   const std::string scene = kScenes + "head_on.xml";
   ASSERT_EQ(run_lobelia({"render", scene, "-o", "ball.exr"}, directory_.path()).exit_code, 0);
   const auto pixels = [&](std::vector<std::string> mask) {

@@ -1,4 +1,4 @@
-// What the public library hands on from the rooms. tests/packages/library_test.cpp builds programs with an installed one.
+// The public library returns what the rooms compute. tests/packages/library_test.cpp tests an installed library.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -173,7 +173,7 @@ void list_places(const Json& json, const Json::json_pointer& at,
 TEST_P(EveryKind, RefusesAnotherTypeAtAnyPlace) {
   const JsonSchema schema(schema_text(GetParam()));
   std::size_t refused = 0;
-  for (unsigned seed = 0; seed < 8U * unsigned(more_samples()); ++seed) {
+  for (unsigned seed = 0; seed < 10U * unsigned(more_samples()); ++seed) {
     const Json good = RandomRecords(GetParam(), seed).record();
     std::vector<Json::json_pointer> places;
     list_places(good, Json::json_pointer(), places);

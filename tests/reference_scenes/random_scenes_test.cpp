@@ -104,8 +104,8 @@ TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
     }
     return std::string();
   });
-  EXPECT_GT(compared, 8 * scenes);
-  EXPECT_GT(lit, 3 * scenes);
+  EXPECT_GT(600 * compared, 5000 * scenes);
+  EXPECT_GT(600 * lit, 2000 * scenes);
 }
 
 TEST(RandomScenes, InEachPrecisionAreWithinItsBoundOfTheSameInFloat64) {

@@ -114,7 +114,7 @@ TEST(PictureTruth, IsTheSceneAsItStandsCoefficientIncluded) {
   EXPECT_LT(rms, 1);
 }
 
-TEST(PictureTruth, OfANoisySceneHasNoiseOfItsOwn) {
+TEST(PictureTruth, IsDrawnFromAnotherSeedWhereTheSceneIsNoisy) {
   Scene s = below_sky(16);
   s.sampler.sample_count = 64;
   const accuracy::PictureTruth truth = accuracy::picture_truth(s, 64);
