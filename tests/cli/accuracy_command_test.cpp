@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "renderer/scene/scene_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
 
@@ -68,22 +65,6 @@ TEST(RenderAccuracy, ThatNothingReachesIsAnErrorThatNamesTheBestAndLeavesNothing
   EXPECT_THAT(result.output_tail, HasSubstr("cannot be reached with 4 samples"));
   EXPECT_THAT(result.output_tail, HasSubstr("the best possible is --accuracy 0."));
   EXPECT_EQ(files_in(directory.path()), 0u);
-}
-
-TEST(RenderAccuracy, OfABlackPictureIsThePictureAndThatThereWasNothingToMeasure) {
-  const TemporaryDirectory directory;
-  Scene dark = read_scene(kScenes + "head_on.xml");
-  dark.film = {48, 48};
-  dark.lights.clear();
-  std::ofstream(directory.path() / "dark.xml") << scene_to_xml(dark);
-  const auto result =
-      run_lobelia({"render", "dark.xml", "--accuracy", "1e-3", "-o", "x.exr"}, directory.path());
-  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  EXPECT_THAT(result.output_tail, HasSubstr("there was nothing to measure"));
-  EXPECT_TRUE(std::filesystem::exists(directory.path() / "x.exr"));
-  const Json record = read_json(directory.path() / "x.json");
-  EXPECT_EQ(record["accuracy"]["reached"]["value"], 0);
-  EXPECT_EQ(record["accuracy"]["reached"]["held"], true);
 }
 
 TEST(RenderAccuracy, RefusesNonsenseAndWhatItChoosesItself) {

@@ -17,7 +17,7 @@ TEST_F(ComparePictures, EveryCommandForUsersOfOtherToolsRunsAndJudges) {
   };
   std::string samples(32 * 32 * 3, '\x60');
   for (const char* side : {"A", "B"}) {
-    std::filesystem::create_directory(directory_.path() / side);
+    std::filesystem::create_directory(path(side));
     const bool is_a = side[0] == 'A';
     exr(is_a ? "a.exr" : "b.exr", 32, 32, rgb(is_a ? 0.21f : 0.2f));
     samples[300] = is_a ? '\xff' : '\x10';

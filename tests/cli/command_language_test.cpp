@@ -77,6 +77,19 @@ TEST(Command, IsTheSameAloneAsAmongAll) {
   }
 }
 
+TEST(Help, IsThereForEveryCommandAndNamesThoseBelowIt) {
+  const TemporaryDirectory directory;
+  for (const cli::CommandRow& command : commands()) {
+    SCOPED_TRACE(command.path);
+    EXPECT_EQ(
+        run_shell("\"$LOBELIA\" " + command.path + " --help > help", directory.path()).exit_code,
+        0);
+    const std::string help = read_file(directory.path() / "help", 1 << 20);
+    EXPECT_THAT(help, HasSubstr(command.path.empty() ? "Exit codes" : "--help"));
+    for (const std::string& name : command.subcommands) EXPECT_THAT(help, HasSubstr(name));
+  }
+}
+
 TEST(Help, AndVersionAreWordsToo) {
   const TemporaryDirectory directory;
   const auto printed = [&](std::vector<std::string> arguments) {
@@ -122,10 +135,7 @@ TEST(Verbose, PrintsTheTimeAndTheMemoryAndOfARenderThePlan) {
 
 TEST(Colours, AreForTerminalsWithoutNoColor) {
   const TemporaryDirectory directory;
-  write_file(directory.path() / "grid.xml",
-             "<grid version=\"1\"><scene file=\"" + kScenes +
-                 "head_on.xml\"/><film width=\"16\" height=\"16\"/><axis name=\"exponent\" "
-                 "values=\"16\"/><engine name=\"analytic\"/></grid>");
+  write_small_grid(directory.path(), "16");
   for (const auto& [more, coloured] :
        {std::pair{"env -u NO_COLOR ", true}, {"NO_COLOR=1 ", false}, {"NO_COLOR= ", true}}) {
     const auto result =

@@ -124,9 +124,6 @@ TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsName
   flat("less.exr", 1);
   flat("more.exr", 1, {channel("Z", 1)});
   EXPECT_EQ(record({"less.exr", "more.exr", "--all-layers"}, 1)["verdict"], "differs");
-  const ProcessResult missing = compare({"less.exr", "more.exr", "--all-layers"});
-  EXPECT_THAT(missing.output_tail, HasSubstr("only in b: Z"));
-  EXPECT_THAT(missing.output_tail, HasSubstr("verdict: differs"));
   EXPECT_EQ(record({"more.exr", "less.exr", "--all-layers"}, 0)["notCompared"]["layers"],
             Record({"Z"}));
   for (const auto& [a, b] : {std::pair{"less.exr", "more.exr"}, {"more.exr", "less.exr"}}) {
@@ -160,7 +157,7 @@ TEST_F(ComparePictures, AChannelThatDiffersAloneNeverPassesUnsaid) {
                                        "y", "z", "u", "v", "w", "r", "alpha", "id"};
   std::mt19937 random(11);
   std::map<std::string, std::string> changed;  // channel by file
-  for (const char* side : {"a", "b"}) std::filesystem::create_directory(directory_.path() / side);
+  for (const char* side : {"a", "b"}) std::filesystem::create_directory(path(side));
   for (int run = 0; run < 14 * more_samples(); ++run) {
     std::set<std::string> names;
     if (run % 2 == 0) names = {"R", "G", "B"};
@@ -186,7 +183,7 @@ TEST_F(ComparePictures, AChannelThatDiffersAloneNeverPassesUnsaid) {
     std::vector<std::string> arguments = {"a", "b", "--json", "set.json"};
     if (all) arguments.emplace_back("--all-layers");
     compare(arguments);
-    const Record set = Record::parse(read_file(directory_.path() / "set.json", 64 << 20));
+    const Record set = Record::parse(read_file(path("set.json"), 64 << 20));
     ASSERT_EQ(set["pairs"].size(), changed.size());
     for (const Record& pair : set["pairs"]) {
       const std::string channel = changed[pair["name"]];

@@ -12,7 +12,7 @@ class CompareMaps : public ComparePictures {
  protected:
   /// Folders A and B with three pairs: equal, off by 0.1 and off by 0.4.
   void SetUp() override {
-    for (const char* side : {"A", "B"}) fs::create_directory(directory_.path() / side);
+    for (const char* side : {"A", "B"}) fs::create_directory(path(side));
     for (const auto& [name, off] :
          {std::pair("equal.exr", 0.0f), {"near.exr", 0.1f}, {"far.exr", 0.4f}}) {
       std::vector<float> a(32 * 32, 0.5f);
@@ -21,12 +21,12 @@ class CompareMaps : public ComparePictures {
       exr(std::string("B/") + name, 32, 32, {{"Y", std::vector<float>(32 * 32, 0.5f)}});
     }
   }
-  fs::path map(const std::string& name) { return directory_.path() / "maps" / (name + ".exr.png"); }
+  fs::path map(const std::string& name) { return path("maps/" + name + ".exr.png"); }
   float brightest(const std::string& name) {
     return std::ranges::max(read_image(map(name)).values());
   }
   ProcessResult maps(std::vector<std::string> more) {
-    fs::remove_all(directory_.path() / "maps");
+    fs::remove_all(path("maps"));
     more.insert(more.begin(), {"A", "B", "--diff-image", "maps"});
     return compare(more);
   }
@@ -45,14 +45,13 @@ TEST_F(CompareMaps, OfFoldersHaveOneScaleForTheWholeSet) {
 TEST_F(CompareMaps, StayInTheirFolderWhateverATableCallsThePair) {
   const std::string kLong(252, 'n');
   file("pairs.csv", "a,b,name\nA/far.exr,B/far.exr,../../evil\nA/near.exr,B/near.exr," +
-                        (directory_.path() / "evil").string() + "\nA/equal.exr,B/equal.exr," +
-                        kLong + "\n");
+                        path("evil").string() + "\nA/equal.exr,B/equal.exr," + kLong + "\n");
   EXPECT_EQ(compare({"--pairs", "pairs.csv", "--diff-image", "deep/maps"}).exit_code, 1);
   std::size_t inside = 0;
-  for (const auto& entry : fs::directory_iterator(directory_.path() / "deep/maps"))
+  for (const auto& entry : fs::directory_iterator(path("deep/maps")))
     inside += entry.is_regular_file();
   EXPECT_EQ(inside, 3u);
-  EXPECT_FALSE(fs::exists(directory_.path() / "evil.png"));
+  EXPECT_FALSE(fs::exists(path("evil.png")));
   EXPECT_FALSE(fs::exists(directory_.path().parent_path() / "evil.png"));
 }
 
@@ -82,12 +81,10 @@ TEST_F(CompareMaps, OfFlipAreFromZeroToOneAndThatOfTheExposuresOverTheirRange) {
 TEST_F(CompareMaps, TheHistogramHasALineForEachBucketOrIsAPlot) {
   const auto csv = compare({"A/far.exr", "B/far.exr", "--histogram", "h.csv"});
   EXPECT_THAT(csv.output_tail, HasSubstr("h.csv: flip.ldr mean 0."));
-  const std::string text = read_file(directory_.path() / "h.csv", 1 << 16);
-  EXPECT_EQ(std::ranges::count(text, '\n'), 101);
+  EXPECT_EQ(std::ranges::count(text("h.csv"), '\n'), 101);
   compare({"A/far.exr", "B/far.exr", "--histogram", "h.svg", "--histogram-of", "flip.hdr",
            "--exposures", "auto"});
-  EXPECT_THAT(read_file(directory_.path() / "h.svg", 1 << 20),
-              HasSubstr("weighted sum per megapixel"));
+  EXPECT_THAT(text("h.svg"), HasSubstr("weighted sum per megapixel"));
   for (const std::vector<std::string>& bad :
        {std::vector<std::string>{"A", "B", "--histogram", "h.csv"},
         {"A/far.exr", "B/far.exr", "--histogram", "h.png"},
@@ -140,7 +137,7 @@ TEST_F(CompareMaps, TheSensitivityIsARecordToo) {
   const auto result =
       compare({"A/near.exr", "--sensitivity", "--json", "s.json", "--fail", "rmse=0.5"});
   EXPECT_THAT(result.output_tail, HasSubstr("changed copy"));
-  const Record sensitivity = Record::parse(read_file(directory_.path() / "s.json", 1 << 20));
+  const Record sensitivity = json("s.json");
   EXPECT_EQ(sensitivity["kind"], "sensitivity");
   EXPECT_EQ(sensitivity["asExpected"].get<bool>(), result.exit_code == 0);
   EXPECT_EQ(sensitivity["limits"][0]["metric"], "rmse");

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -22,42 +21,27 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 TEST_F(ComparePictures, RefusesWhatIsNoPictureInOneLine) {
   const std::string good = good_exr();
-  const Png flat{.width = 4, .height = 4, .samples = std::string(48, '\x55')};
-  const std::string png = png_file(flat);
+  const auto expect_refused = [&](const std::string& name, const std::string& why) {
+    for (const auto& [a, b] : {std::pair(name, std::string("good.exr")), {"good.exr", name}}) {
+      SCOPED_TRACE(a + " " + b);
+      const ProcessResult result = compare({a, b});
+      expect_one_line(result, 3, why);
+      EXPECT_THAT(result.output_tail, HasSubstr(name));
+      EXPECT_FALSE(result.timed_out);
+    }
+  };
   file("text.png", "this is text");
   expect_refused("text.png", "not a readable picture");
   file("empty.exr", "");
   expect_refused("empty.exr", "not a readable picture");
-  std::filesystem::create_directory(directory_.path() / "directory.exr");
+  std::filesystem::create_directory(path("directory.exr"));
   expect_refused("directory.exr", "compare files with files, folders with folders");
-  ASSERT_EQ(::mkfifo((directory_.path() / "pipe.exr").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo(path("pipe.exr").c_str(), 0600), 0);
   expect_refused("pipe.exr", "not a regular file");
   expect_refused("/dev/zero", "not a regular file");
   expect_refused("missing.exr", "no such file");
   file("half.exr", good.substr(0, good.size() / 2));
   expect_refused("half.exr", "not a readable picture");
-  file("half.png", png.substr(0, png.size() / 2));
-  expect_refused("half.png", "not a readable picture");
-  file("none.png", png_file({.width = 0, .height = 0}));
-  expect_refused("none.png", "not a readable picture");
-  std::string damaged = png;
-  damaged[damaged.find("IDAT") + 20] ^= 1;
-  file("damaged.png", damaged);
-  expect_refused("damaged.png", "not a readable picture");
-  const std::string jpeg = grey_jpeg_file(3);
-  file("half.jpg", jpeg.substr(0, jpeg.size() / 2));
-  expect_refused("half.jpg", "not a readable picture");
-  file("long.ppm", "P6 100000 1 255\n" + std::string(300000, 'x'));
-  expect_refused("long.ppm", "100000 x 1 pixels; at most 32768 a side");
-}
-
-TEST_F(ComparePictures, OfOtherSizesAreRefused) {
-  good_exr();
-  exr("small.exr", 2, 1, {{"Y", {1, 1}}});
-  const ProcessResult result = compare({"small.exr", "good.exr"});
-  EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.output_tail,
-              HasSubstr("the sizes differ: 2 x 1 against 32 x 32 (small.exr against good.exr)"));
 }
 
 TEST_F(ComparePictures, NeverPassesANaN) {
@@ -68,13 +52,6 @@ TEST_F(ComparePictures, NeverPassesANaN) {
     EXPECT_EQ(made["verdict"], "non-finite");
     EXPECT_EQ(made["nonfinite"]["a"], 32 * 32);
   }
-  std::vector<float> many(1000 * 1000, 0.5f);
-  exr("clean.exr", 1000, 1000, {{"Y", many}});
-  many[765432] = kNaN;
-  exr("speck.exr", 1000, 1000, {{"Y", many}});
-  const Record speck = record({"clean.exr", "speck.exr"}, 1);
-  EXPECT_EQ(speck["verdict"], "non-finite");
-  EXPECT_EQ(speck["nonfinite"]["b"], 1);
 }
 
 TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheFirstBadValueIs) {
@@ -95,24 +72,13 @@ TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheF
   EXPECT_EQ(made["metrics"]["max_abs"], 0);
   EXPECT_EQ(made["nonfinite"], Record({{"a", 0}, {"b", 0}, {"equalAllowed", 1}}));
 
-  std::vector<float> moved = plain, opposite = plain;
-  moved[32 * 7 + 6] = std::numeric_limits<float>::infinity();
-  opposite[32 * 7 + 5] = -std::numeric_limits<float>::infinity();
-  picture("moved.exr", moved, plain), picture("opposite.exr", opposite, plain);
   flat("grey.exr", 0.5f);
-  for (const char* other : {"moved.exr", "opposite.exr", "grey.exr"}) {
-    const ProcessResult result = compare({"inf.exr", other, "--allow-equal-nonfinite"});
-    EXPECT_EQ(result.exit_code, 1) << other;
-    EXPECT_THAT(result.output_tail, HasSubstr("verdict: non-finite"));
-    EXPECT_THAT(result.output_tail,
-                HasSubstr("the first is inf in inf.exr at x 5, y 7, channel G"));
-  }
-  EXPECT_THAT(compare({"grey.exr", "opposite.exr"}).output_tail,
-              HasSubstr("the first is -inf in opposite.exr at x 5, y 7, channel G"));
+  EXPECT_EQ(compare({"inf.exr", "grey.exr", "--allow-equal-nonfinite"}).exit_code, 1);
 
   // Depth has infinities that mean something.
+  std::vector<float> moved = plain;
+  moved[32 * 7 + 6] = std::numeric_limits<float>::infinity();
   picture("depth.exr", plain, values), picture("other_depth.exr", plain, moved);
-  EXPECT_EQ(record({"depth.exr", "depth.exr", "--layer", "Z"}, 0)["verdict"], "pass");
   const Record layers = record({"depth.exr", "depth.exr", "--all-layers"}, 0)["layers"];
   EXPECT_EQ(layers[0]["nonfinite"]["equalAllowed"], 1);
   const ProcessResult depth = compare({"depth.exr", "other_depth.exr", "--all-layers"});
@@ -124,7 +90,7 @@ TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheF
                      "--diff-of", "abs"})
                 .exit_code,
             0);
-  const Image difference = read_image(directory_.path() / "d.exr");
+  const Image difference = read_image(path("d.exr"));
   EXPECT_THAT(difference.values(), ::testing::Each(0));
   // A second reference with the same is measured, one with others is not.
   const auto floor = [&](const char* second) {
@@ -132,6 +98,7 @@ TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheF
                   0)["referenceFloor"];
   };
   EXPECT_EQ(floor("inf.exr")["metrics"]["max_abs"], 0);
+  picture("moved.exr", moved, plain);
   EXPECT_EQ(floor("moved.exr")["nonfinite"], 1);
   EXPECT_EQ(
       compare({"inf.exr", "inf.exr", "--allow-equal-nonfinite", "--a-error", "grey.exr"}).exit_code,
@@ -142,7 +109,12 @@ TEST_F(ComparePictures, OfBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
   const std::vector<float> black(32 * 32, 0.0f);
   exr("black.exr", 32, 32, {{"Y", black}});
   const Record made = record({"black.exr", "black.exr", "--exposures", "auto"}, 0);
-  EXPECT_EQ(made["metrics"]["rmse"], 0);
+  for (const auto& [id, value] : made["metrics"].items())
+    if (id != "psnr") {
+      EXPECT_TRUE(value.is_number()) << id << " " << value;
+    }
+  for (const char* id : {"rmse", "relmse.eps=0.01", "max_rel_peak"})
+    EXPECT_EQ(made["metrics"][id], 0) << id << ": nothing is divided by black";
   EXPECT_TRUE(made["metrics"].contains("flip.ldr.mean"));
   EXPECT_FALSE(made["metrics"].contains("flip.hdr.mean"));
   EXPECT_FALSE(made["viewing"].contains("hdrExposures"));
@@ -169,29 +141,6 @@ TEST_F(ComparePictures, OfBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
   }
 }
 
-TEST_F(ComparePictures, BlackIsBlackAndNothingIsDividedByIt) {
-  flat("black.exr", 0);
-  const Record made = record({"black.exr", "black.exr"}, 0);
-  EXPECT_EQ(made["verdict"], "pass");
-  for (const auto& [id, value] : made["metrics"].items())
-    if (id != "psnr") {
-      EXPECT_TRUE(value.is_number()) << id << " " << value;
-    }
-  EXPECT_EQ(made["metrics"]["relmse.eps=0.01"], 0);
-  EXPECT_EQ(made["metrics"]["max_rel_peak"], 0);
-}
-
-TEST_F(ComparePictures, HalfAgainstFloatPassesWithItsRounding) {
-  flat("float.exr", 0.3f);
-  flat("half.exr", 0.3f, {}, Imf::HALF);
-  const Record made = record({"half.exr", "float.exr"}, 0);
-  EXPECT_EQ(made["pictures"]["a"]["valueType"], "half");
-  EXPECT_EQ(made["pictures"]["b"]["valueType"], "float");
-  // 0.3 lies between halves that are 2^-12 apart, and rounds up.
-  EXPECT_DOUBLE_EQ(made["metrics"]["max_abs"], double(float(half(0.3f))) - double(0.3f));
-  EXPECT_GT(made["metrics"]["max_abs"], 0);
-}
-
 TEST_F(ComparePictures, GreyIsRgbOfEqualValuesAndAlphaIsNoPartOfThePicture) {
   flat("rgb.exr", 0.25f);
   flat("rgba.exr", 0.25f, {channel("A", 0.5f)});
@@ -203,13 +152,11 @@ TEST_F(ComparePictures, GreyIsRgbOfEqualValuesAndAlphaIsNoPartOfThePicture) {
 TEST_F(ComparePictures, DataOutsideTheDisplayWindowCount) {
   const auto box = window(0, 0, 32, 32), wide = window(-4, -4, 40, 40);
   const auto write = [&](const std::string& name, const Imath::Box2i& data, float outside) {
-    const int width = data.max.x - data.min.x + 1;
     std::vector<float> grey;
     for (int y = data.min.y; y <= data.max.y; ++y)
       for (int x = data.min.x; x <= data.max.x; ++x)
         grey.push_back(x < 0 || y < 0 || x >= 32 || y >= 32 ? outside : 0.5f);
-    ASSERT_EQ(grey.size(), std::size_t(width) * std::size_t(data.max.y - data.min.y + 1));
-    write_exr_parts(directory_.path() / name, {{"", data, box, {{"Y", grey}}}});
+    write_exr_parts(path(name), {{"", data, box, {{"Y", grey}}}});
   };
   write("plain.exr", box, 0);
   write("zero.exr", wide, 0);
@@ -237,23 +184,12 @@ TEST_F(ComparePictures, DataOutsideTheDisplayWindowCount) {
       << "the noise of the data is not known";
 }
 
-TEST_F(ComparePictures, APpmAndThePngThatOiiotoolMakesOfItAreEqual) {
-  std::string rgb;
-  for (int i = 0; i < 3 * 16 * 16; ++i) rgb += char(i % 251);
-  file("a.ppm", "P6 16 16 255\n" + rgb);
-  Png png{.width = 16, .height = 16, .samples = rgb};
-  png.chunks = png_chunk("tEXt", std::string("oiio:ColorSpace\0Rec709", 22));
-  file("a.png", png_file(png));
-  const Record made = record({"a.png", "a.ppm", "--fail", "max_abs=0"}, 0);
-  EXPECT_EQ(made["pictures"]["a"]["transfer"], made["pictures"]["b"]["transfer"]);
-}
-
 TEST_F(ComparePictures, SmallerMipLevelsAreNamed) {
   const auto write = [&](const std::string& name, float small) {
     Imf::Header header(16, 16);
     header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
     header.setTileDescription({16, 16, Imf::MIPMAP_LEVELS});
-    Imf::TiledOutputFile tiled((directory_.path() / name).c_str(), header);
+    Imf::TiledOutputFile tiled(path(name).c_str(), header);
     for (int level = 0; level < tiled.numLevels(); ++level) {
       std::vector<float> grey(16 * 16, level == 0 ? 1 : small);
       Imf::FrameBuffer buffer;
@@ -271,7 +207,7 @@ TEST_F(ComparePictures, SmallerMipLevelsAreNamed) {
 
 TEST_F(ComparePictures, OfTwoFoldersWhatWasNotComparedIsOneLine) {
   for (const char* side : {"a", "b"}) {
-    std::filesystem::create_directory(directory_.path() / side);
+    std::filesystem::create_directory(path(side));
     flat(std::string(side) + "/one.exr", 1, {channel("Z", 1)});
     flat(std::string(side) + "/two.exr", 1, {channel("N", 1)});
     flat(std::string(side) + "/whole.exr", 1);

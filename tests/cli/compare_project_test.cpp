@@ -13,29 +13,23 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-class CompareProject : public ::testing::Test {
+class CompareProject : public ComparePictures {
  protected:
-  fs::path path(const std::string& name) const { return directory_.path() / name; }
   /// A picture of one grey.
   void grey(const std::string& name, float value) {
     fs::create_directories(path(name).parent_path());
     const std::vector<float> values(32 * 32, value);
     write_exr_channels(path(name), 32, 32, {{"R", values}, {"G", values}, {"B", values}});
   }
-  void project(const std::string& text, const std::string& name = "lobelia.toml") {
-    write_file(path(name), text);
+  void project(const std::string& content, const std::string& name = "lobelia.toml") {
+    file(name, content);
   }
-  ProcessResult compare(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "compare");
-    return run_lobelia(arguments, directory_.path());
-  }
-  void expect_refused(const std::string& text, const std::string& why) {
-    project(text);
+  void expect_refused(const std::string& content, const std::string& why) {
+    SCOPED_TRACE(content);
+    project(content);
     const ProcessResult result = compare({});
-    EXPECT_EQ(result.exit_code, 3) << text << "\n" << result.output_tail;
-    EXPECT_THAT(result.output_tail, HasSubstr("lobelia.toml: ")) << text;
-    EXPECT_THAT(result.output_tail, HasSubstr(why)) << text;
-    EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
+    expect_one_line(result, 3, why);
+    EXPECT_THAT(result.output_tail, HasSubstr("lobelia.toml: "));
   }
   /// `lobelia compare --accept` at a terminal of its own, where `answer` is typed, with $CI as given.
   std::string accept_at_a_terminal(const std::string& answer, const std::string& ci = "") {
@@ -45,7 +39,6 @@ class CompareProject : public ::testing::Test {
                      directory_.path())
         .output_tail;
   }
-  TemporaryDirectory directory_;
 };
 
 constexpr char kTwoFolders[] = "judged = [\"mine\"]\nreferences = [\"truth\"]\n";
@@ -109,7 +102,7 @@ TEST_F(CompareProject, MayAcceptSeveralReferencesOfWhichTheBestCounts) {
   project("judged = [\"mine\"]\nreferences = [\"truth\", \"mac\"]\n");
   const auto result = compare({"--project", "lobelia.toml", "--json", "set.json"});
   EXPECT_EQ(result.exit_code, 1);
-  const Record set = Record::parse(read_file(path("set.json"), 1 << 20));
+  const Record set = json("set.json");
   EXPECT_EQ(set["summary"]["pass"], 1);
   for (const Record& pair : set["pairs"]) {
     EXPECT_EQ(pair["references"], 2);
@@ -131,11 +124,11 @@ TEST_F(CompareProject, ExcusesAKnownDifferenceUntilItExpires) {
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("known       x.exr: "));
   EXPECT_THAT(result.output_tail, HasSubstr("1 known to differ"));
-  const std::string junit = read_file(path("j.xml"), 1 << 20);
+  const std::string junit = text("j.xml");
   EXPECT_THAT(junit, HasSubstr("<skipped"));
   EXPECT_THAT(junit, HasSubstr("failures=\"0\""));
   EXPECT_THAT(junit, HasSubstr("&lt;b"));
-  EXPECT_THAT(read_file(path("c.csv"), 1 << 20), HasSubstr("known until 9999-12-31"));
+  EXPECT_THAT(text("c.csv"), HasSubstr("known until 9999-12-31"));
   project(known("\"2001-01-01\""));
   result = compare({});
   EXPECT_EQ(result.exit_code, 1);
@@ -224,21 +217,20 @@ TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
 TEST_F(CompareProject, IsAcceptedOnlyByAPersonWhoSaysYes) {
   grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("mine/new.exr", 0.3f);
   project(kTwoFolders);
-  const auto bytes = [&](const std::string& name) { return read_file(path(name), 1 << 20); };
-  const std::string before = bytes("truth/x.exr");
+  const std::string before = text("truth/x.exr");
   const ProcessResult unattended = compare({"--accept"});
   EXPECT_EQ(unattended.exit_code, 2);
   EXPECT_THAT(unattended.output_tail, HasSubstr("somebody has to look"));
   EXPECT_THAT(accept_at_a_terminal("no"), HasSubstr("nothing was changed"));
-  EXPECT_EQ(bytes("truth/x.exr"), before);
+  EXPECT_EQ(text("truth/x.exr"), before);
   const std::string in_ci = accept_at_a_terminal("yes", "true");
   EXPECT_THAT(in_ci, HasSubstr("this is a CI job"));
-  EXPECT_EQ(bytes("truth/x.exr"), before);
+  EXPECT_EQ(text("truth/x.exr"), before);
   const std::string accepted = accept_at_a_terminal("yes");
   EXPECT_THAT(accepted, HasSubstr("2 references were replaced"));
   EXPECT_THAT(accepted, HasSubstr("ended with 0"));
-  EXPECT_EQ(bytes("truth/x.exr"), bytes("mine/x.exr"));
-  EXPECT_EQ(bytes("truth/new.exr"), bytes("mine/new.exr"));
+  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
+  EXPECT_EQ(text("truth/new.exr"), text("mine/new.exr"));
   EXPECT_EQ(compare({}).exit_code, 0);
 }
 
@@ -263,10 +255,10 @@ TEST_F(CompareProject, AcceptedThroughALinkReplacesTheLinkAndNotTheFileBehindIt)
   fs::create_directories(path("truth"));
   fs::create_symlink(path("archive/x.exr"), path("truth/x.exr"));
   project(kTwoFolders);
-  const std::string archived = read_file(path("archive/x.exr"), 1 << 20);
+  const std::string archived = text("archive/x.exr");
   accept_at_a_terminal("yes");
-  EXPECT_EQ(read_file(path("archive/x.exr"), 1 << 20), archived);
-  EXPECT_EQ(read_file(path("truth/x.exr"), 1 << 20), read_file(path("mine/x.exr"), 1 << 20));
+  EXPECT_EQ(text("archive/x.exr"), archived);
+  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
 }
 
 TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {

@@ -18,8 +18,7 @@ class HowPicturesAreRead : public ComparePictures {
     const ProcessResult result = compare(arguments);
     EXPECT_EQ(result.exit_code, exit_code) << result.output_tail;
     std::string all;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(directory_.path() / "report" / "cells"))
+    for (const auto& entry : std::filesystem::directory_iterator(path("report/cells")))
       all += read_file(entry.path() / "index.html", 1 << 20);
     return all;
   }
@@ -67,8 +66,7 @@ TEST_F(HowPicturesAreRead, IsSaidOfLayersAndTheirNoise) {
 }
 
 TEST_F(HowPicturesAreRead, IsTheLayerThatEachSetCallsSoInAReportOfFoldersToo) {
-  for (const char* folder : {"a", "b"})
-    std::filesystem::create_directory(directory_.path() / folder);
+  for (const char* folder : {"a", "b"}) std::filesystem::create_directory(path(folder));
   flat("a/only.exr", 1, {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2)});
   flat("b/other.exr", 1, {channel("gloss.R", 3), channel("gloss.G", 3), channel("gloss.B", 3)});
   // Each picture is without another: exit code 3.

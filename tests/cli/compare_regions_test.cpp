@@ -34,6 +34,10 @@ TEST_F(CompareRegions, AMaskIsARectangleAPolygonAPictureOrAllOfThem) {
   const Record both =
       record({"a.exr", "b.exr", "--mask", "mask.exr", "--mask", "rect:30,30,9,9"}, 1);
   EXPECT_EQ(both["mask"]["pixels"], 36);
+  const ProcessResult limited = compare(
+      {"a.exr", "b.exr", "--mask", "mask.exr", "--fail", "mae.mask=0.25", "--no-default-limits"});
+  EXPECT_EQ(limited.exit_code, 0);
+  EXPECT_THAT(limited.output_tail, HasSubstr("in the mask"));
   EXPECT_THAT(compare({"a.exr", "b.exr", "--fail", "rmse.mask=1"}).output_tail,
               HasSubstr("a limit on 'rmse.mask' needs a mask (--mask or --scene)"));
 }
@@ -74,10 +78,9 @@ TEST_F(CompareRegions, OfAnotherSizeThanThePicturesAreAnErrorOfThePair) {
   EXPECT_EQ(everything.exit_code, 3);
   EXPECT_THAT(everything.output_tail, HasSubstr("nothing is left to compare"));
   for (const char* side : {"A", "B"}) {
-    std::filesystem::create_directory(directory_.path() / side);
+    std::filesystem::create_directory(path(side));
     for (const char* name : {"big.exr", "small.exr"})
-      std::filesystem::copy(directory_.path() / (name[0] == 'b' ? "a.exr" : name),
-                            directory_.path() / side / name);
+      std::filesystem::copy(path(name[0] == 'b' ? "a.exr" : name), path(side) / name);
   }
   const Record set = record({"A", "B", "--mask", "mask.exr"}, 3);
   EXPECT_EQ(set["summary"]["pass"], 1);

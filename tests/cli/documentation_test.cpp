@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/highlight.hpp"
 #include "tests/cli/run_lobelia.hpp"
 
 namespace lobelia {
@@ -26,21 +25,6 @@ TEST(GeneratedPages, AreAsTheProgramWritesThem) {
         << name << "; run: lobelia manual --docs docs";
   }
   EXPECT_GT(files, 10);
-}
-
-TEST(GeneratedPages, NameEveryModelAndLobe) {
-  const std::string page = text_of(fs::path(LOBELIA_SOURCE_DIR) / "docs/models.md");
-  for (const auto names : {model_names(), lobe_names()})
-    for (const std::string_view name : names)
-      EXPECT_THAT(page, HasSubstr("`" + std::string(name) + "`"));
-}
-
-TEST(GeneratedPages, ShowHowACommandIsTyped) {
-  const std::string page = text_of(fs::path(LOBELIA_SOURCE_DIR) / "docs/command_line.md");
-  for (const char* part :
-       {"```\nlobelia COMMAND [OPTIONS]\n```", "```\nlobelia farm [COMMAND] [OPTIONS] [GRID]\n```",
-        "```\nlobelia render -o OUT.exr [OPTIONS] SCENE\n```"})
-    EXPECT_THAT(page, HasSubstr(part));
 }
 
 TEST(GeneratedPages, HaveFormulasThatAreTypeset) {

@@ -9,13 +9,6 @@ namespace {
 
 using testing::HasSubstr;
 
-void write_small_grid(const std::filesystem::path& directory) {
-  write_file(directory / "grid.xml",
-             "<grid version=\"1\"><scene file=\"" + kScenes +
-                 "head_on.xml\"/><film width=\"32\" height=\"32\"/><axis name=\"exponent\" "
-                 "values=\"16, 32\"/><engine name=\"analytic\"/></grid>");
-}
-
 TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
   const TemporaryDirectory directory;
   // What runs us may have given us a namespace without a /proc of its own.
@@ -93,8 +86,6 @@ TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   };
   std::filesystem::remove(cells / "n16/lobelia-analytic.json");
   expect_found("missing", "lobelia-analytic.json is missing.");
-  std::filesystem::remove(cells / "n16/cell.json");
-  expect_found("missing", "cell.json: cannot read");
   std::filesystem::remove(cells / "n16/analytic.exr");
   std::filesystem::copy_file(cells / "n32/analytic.exr", cells / "n16/analytic.exr");
   expect_found("changed", "analytic.exr is not the file that the farm wrote");
@@ -106,10 +97,6 @@ TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   record["axes"]["exponent"] = "17";
   write_json(cells / "n16/cell.json", record);
   expect_found("changed", "cell.json is not the record that the farm wrote");
-  // As an earlier version left it.
-  for (const char* key : {"files", "seal"}) record.erase(key);
-  write_json(cells / "n16/cell.json", record);
-  expect_found("not sealed", "cell.json has no hashes of its files");
 }
 
 TEST(FarmCommand, WithNoiseHasVerdictsThatItsGalleryFindsAgain) {

@@ -22,10 +22,7 @@ constexpr int kNotLoaded = 127;
 class ResourceLimits : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_file(path("grid.xml"),
-               "<grid version=\"1\"><scene file=\"" + kScenes +
-                   "head_on.xml\"/><film width=\"16\" height=\"16\"/><axis name=\"exponent\" "
-                   "values=\"16, 32\"/><engine name=\"analytic\"/></grid>");
+    write_small_grid(directory_.path());
     const auto made = run_shell(
         "\"$LOBELIA\" render -q \"$SCENES\"head_on.xml --width 64 --height 64 -o a.exr &&\n"
         "\"$LOBELIA\" render -q \"$SCENES\"oblique_45.xml --width 64 --height 64 -o b.exr &&\n"

@@ -1,6 +1,11 @@
 // Runs the program as a user does.
 #pragma once
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,6 +33,25 @@ inline ProcessResult run_shell(const std::string& script, const std::filesystem:
   return run_process(
       {"/bin/sh", "-c", "LOBELIA=$1 SCENES=$2\n" + script, "sh", LOBELIA_PROGRAM, kScenes},
       options);
+}
+
+/// An error as every command says it: in one line, which has these words.
+inline void expect_one_line(const ProcessResult& result, int exit_code, const std::string& words) {
+  const std::string& said = result.output_tail;
+  EXPECT_EQ(result.exit_code, exit_code) << said;
+  EXPECT_TRUE(said.starts_with("lobelia: ")) << said;
+  EXPECT_THAT(said, testing::HasSubstr(words));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+}
+
+/// grid.xml with a cell for each exponent.
+inline void write_small_grid(const std::filesystem::path& directory,
+                             const std::string& exponents = "16, 32", int side = 32) {
+  const std::string pixels = std::to_string(side);
+  write_file(directory / "grid.xml", "<grid version=\"1\"><scene file=\"" + kScenes +
+                                         "head_on.xml\"/><film width=\"" + pixels + "\" height=\"" +
+                                         pixels + "\"/><axis name=\"exponent\" values=\"" +
+                                         exponents + "\"/><engine name=\"analytic\"/></grid>");
 }
 
 inline std::size_t files_in(const std::filesystem::path& directory) {

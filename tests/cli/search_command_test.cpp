@@ -66,10 +66,8 @@ TEST_F(SearchCommand, RefusesAWrongRequestInOneLine) {
       {"--precision fixed:99", "--precision"},
   };
   for (const auto& [arguments, words] : wrong) {
-    const auto result = run(arguments);
-    EXPECT_EQ(result.exit_code, 2) << arguments;
-    EXPECT_THAT(result.output_tail, HasSubstr(words)) << arguments;
-    EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
+    SCOPED_TRACE(arguments);
+    expect_one_line(run(arguments), 2, words);
   }
   EXPECT_EQ(run("--operations 3 --json none/search.json").exit_code, 4);
 }

@@ -12,6 +12,7 @@
 
 #include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
+#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -56,10 +57,7 @@ constexpr char kBrokenPipe[] = "mkfifo pipe; : < pipe & exec 4> pipe; wait\n";
 class StandardStreams : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_file(path("grid.xml"),
-               "<grid version=\"1\"><scene file=\"" + kScenes +
-                   "head_on.xml\"/><film width=\"16\" height=\"16\"/><axis name=\"exponent\" "
-                   "values=\"16\"/><engine name=\"analytic\"/></grid>");
+    write_small_grid(directory_.path(), "16");
     const auto made = run_shell(
         "\"$LOBELIA\" render -q \"$SCENES\"head_on.xml -o a.exr &&\n"
         "\"$LOBELIA\" render -q \"$SCENES\"oblique_45.xml -o b.exr &&\n"
@@ -88,6 +86,7 @@ TEST_F(StandardStreams, StderrThatCannotBeWrittenChangesNoExitCode) {
 }
 
 TEST_F(StandardStreams, StdoutThatCannotBeWrittenIsExitCode4AndOneLineOr141WithoutAReader) {
+  std::size_t number = 0;
   for (const char* command : {"--help",
                               "--version",
                               "render --help",
@@ -95,10 +94,10 @@ TEST_F(StandardStreams, StdoutThatCannotBeWrittenIsExitCode4AndOneLineOr141Witho
                               "verify paper --help",
                               "models",
                               "models --json -",
-                              "engines",
-                              "engines --json -",
                               "scene-format",
                               "compare --list-metrics",
+                              "engines",
+                              "engines --json -",
                               "compare a.exr b.exr",
                               "compare a.exr b.exr --json -",
                               "compare a.exr b.exr --csv -",
@@ -114,6 +113,7 @@ TEST_F(StandardStreams, StdoutThatCannotBeWrittenIsExitCode4AndOneLineOr141Witho
                               "farm verify changed",
                               "gallery changed",
                               "gallery serve changed --port 0"}) {
+    if (is_left_out(number++, 4)) continue;
     for (const char* where : {"> /dev/full", ">&-", ">&4"}) {
       const auto result = run_shell(kBrokenPipe + std::string("\"$LOBELIA\" ") + command + " " +
                                         where + " 2> errors.txt; code=$?; rm pipe; exit $code",

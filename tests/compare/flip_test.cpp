@@ -1,6 +1,5 @@
 // LDR-FLIP and HDR-FLIP against values of NVIDIA's tool.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include "compare/compare.hpp"
 #include "compare/maps/difference_map.hpp"
@@ -73,23 +72,6 @@ TEST(Flip, AgreesWithTheReferenceToolOnAPictureOfAllColoursAndEdges) {
   EXPECT_NEAR(comparison.value("flip.ldr.max"), 0.859666228, 2e-7);
 }
 
-TEST(Flip, DefaultViewerSees67PixelsPerDegree) {
-  EXPECT_NEAR(kDefaultPixelsPerDegree, 67.0206, 5e-5);
-}
-
-TEST(Flip, SeesLessOfAFineDifferenceFromFarther) {
-  const Image grey = fixtures::flat(64, 64, 0.2f, 0.2f, 0.2f);
-  Image checker = grey;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x)
-      for (float& value : checker.pixel(x, y)) value *= (x + y) % 2 ? 1.2f : 0.8f;
-  ComparisonOptions near, far;
-  near.viewing.pixels_per_degree = 20;
-  far.viewing.pixels_per_degree = 120;
-  EXPECT_GT(compare(checker, grey, near).value("flip.ldr.mean"),
-            3 * compare(checker, grey, far).value("flip.ldr.mean"));
-}
-
 TEST(Flip, FiltersKeepAFlatPictureFlatAtEveryDistance) {
   for (const double ppd :
        {kMinPixelsPerDegree, 30.0, kDefaultPixelsPerDegree, kMaxPixelsPerDegree}) {
@@ -139,77 +121,28 @@ TEST(Flip, ComesOutTheSameWhereverATileEnds) {
   }
 }
 
-TEST(Flip, OfPicturesThatDifferInAPartAgreesWithADoubleLoopAroundItAndIsZeroBeyond) {
-  constexpr int kWidth = 261, kHeight = 90;
-  const FlipFilters filters(kDefaultPixelsPerDegree);
-  const Image a = fixtures::noise(kWidth, kHeight, 5, 1.3f),
-              other = fixtures::noise(kWidth, kHeight, 6, 1.2f);
-  for (const FlipTile part :
-       {FlipTile{0, 0, 1, 1}, FlipTile{250, 30, 9, 4}, FlipTile{100, 89, 40, 1}}) {
-    Image b = a;
-    for (int y = part.top; y < part.top + part.height; ++y)
-      for (int x = part.left; x < part.left + part.width; ++x)
-        std::ranges::copy(other.pixel(x, y), b.pixel(x, y).begin());
-    const DisplayLight shown_a(a, 0), shown_b(b, 0);
-    const std::vector<double> plain =
-        fixtures::plain_flip(shown_a, shown_b, kDefaultPixelsPerDegree);
-    const PixelValues errors = flip_error_map(shown_a, shown_b, filters);
-    for (std::size_t i = 0; i < plain.size(); ++i) {
-      ASSERT_NEAR(errors[i], plain[i], 1e-6) << i;
-      if (plain[i] == 0) {
-        ASSERT_EQ(errors[i], 0) << i;
-      }
-    }
-  }
-}
-
 TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
-  // Widths around the padding, and beyond one tile both ways.
-  constexpr std::pair<int, int> kSizes[] = {{1, 1},  {2, 3},   {1, 37},  {15, 4},
-                                            {16, 5}, {17, 11}, {33, 29}, {261, 258}};
-  const FlipFilters filters(kDefaultPixelsPerDegree);
-  for (const auto& [width, height] : kSizes)
-    for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
-      const Image a = fixtures::noise(width, height, 5, 1.3f),
-                  b = fixtures::noise(width, height, 6, 1.2f);
-      const DisplayLight shown_a(a, -0.5, curve), shown_b(b, -0.5, curve);
-      const std::vector<double> plain =
-          fixtures::plain_flip(shown_a, shown_b, kDefaultPixelsPerDegree);
-      const std::vector<float> errors = errors_of(shown_a, shown_b, filters, {0, 0, width, height});
-      double largest = 0, mean = 0, max = 0;
-      for (std::size_t i = 0; i < plain.size(); ++i) {
-        largest = std::max(largest, std::abs(plain[i] - double(errors[i])));
-        mean += plain[i] / double(plain.size());
-        max = std::max(max, plain[i]);
-      }
-      EXPECT_LT(largest, 1e-6) << width << " x " << height;
-      if (curve != ToneCurve::kClip) continue;
-      ComparisonOptions options;
-      options.viewing.exposure_stops = -0.5;
-      const Comparison comparison = compare(a, b, options);
-      EXPECT_NEAR(comparison.value("flip.ldr.mean"), mean, 1e-6) << width << " x " << height;
-      EXPECT_NEAR(comparison.value("flip.ldr.max"), max, 1e-6) << width << " x " << height;
+  // Widths around the padding, and of several tiles.
+  constexpr std::pair<int, int> kSizes[] = {{1, 1}, {15, 4}, {16, 5}, {17, 11}, {261, 90}};
+  ComparisonOptions options;
+  options.viewing.exposure_stops = -0.5;
+  options.viewing.pixels_per_degree = 40;
+  for (const auto& [width, height] : kSizes) {
+    const Image a = fixtures::noise(width, height, 5, 1.3f),
+                b = fixtures::noise(width, height, 6, 1.2f);
+    const std::vector<double> plain =
+        fixtures::plain_flip(DisplayLight(a, -0.5), DisplayLight(b, -0.5), 40);
+    const auto errors =
+        measure_difference_map(*find_difference_map("flip.ldr"), a, b, options.viewing);
+    double mean = 0, max = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      ASSERT_NEAR(errors[i], plain[i], 1e-6) << width << " x " << height << ", pixel " << i;
+      mean += plain[i] / double(plain.size());
+      max = std::max(max, plain[i]);
     }
-}
-
-constexpr ToneCurve kCurves[] = {ToneCurve::kClip, ToneCurve::kAces, ToneCurve::kReinhard,
-                                 ToneCurve::kHable};
-
-TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
-  const Image a = fixtures::noise(261, 40, 5, 1.3f), b = fixtures::highlight(261, 40, 20, 1.2);
-  const FlipFilters filters(kDefaultPixelsPerDegree);
-  const FlipTile whole{0, 0, 261, 40};
-  for (const ToneCurve curve : kCurves) {
-    const DisplayLight shown_a(a, 0.3, curve), shown_b(b, 0.3, curve);
-    const std::vector<float> widest = errors_of(shown_a, shown_b, filters, whole);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      hwy::SetSupportedTargetsForTest(target);
-      const std::vector<float> errors = errors_of(shown_a, shown_b, filters, whole);
-      hwy::SetSupportedTargetsForTest(0);
-      // Without fused multiply-add some roundings differ: measured 1.8e-7.
-      for (std::size_t i = 0; i < errors.size(); ++i)
-        ASSERT_NEAR(errors[i], widest[i], 5e-7) << hwy::TargetName(target) << ", pixel " << i;
-    }
+    const Comparison comparison = compare(a, b, options);
+    EXPECT_NEAR(comparison.value("flip.ldr.mean"), mean, 1e-6) << width << " x " << height;
+    EXPECT_NEAR(comparison.value("flip.ldr.max"), max, 1e-6) << width << " x " << height;
   }
 }
 
@@ -226,10 +159,6 @@ TEST(HdrFlip, AgreesWithTheReferenceToolOnConstants) {
   // As for LDR-FLIP, the tool's features of flat pictures are roundings: measured 8.1e-5.
   EXPECT_NEAR(comparison.value("flip.hdr.mean"), 0.14483313, 1e-4);
   EXPECT_NEAR(comparison.value("flip.hdr.max"), 0.14483313, 1e-4);
-  // The same range in the seven digits that are printed.
-  options.viewing.hdr_exposures = HdrExposures{3.083297, 3.083297, 2};
-  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"),
-              comparison.value("flip.hdr.mean"), 5e-7);
 }
 
 TEST(HdrFlip, AgreesWithTheReferenceToolOnARamp) {
@@ -405,35 +334,8 @@ TEST(FlipHistogram, HasThePixelsAndTheWeightedQuantilesOfAPlainCount) {
   EXPECT_NEAR(histogram.mean, all / double(errors.size()), 1e-12);
   EXPECT_EQ(histogram.least, 0);
   EXPECT_EQ(histogram.largest, 1);
-  const std::string csv = histogram_csv(histogram);
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + kFlipBuckets);
   EXPECT_EQ(flip_histogram({}).mean, 0);
   EXPECT_EQ(flip_histogram(std::vector<float>(9, 0.0f)).median, 0);
-}
-
-TEST(HdrFlip, IsLeftOutWithoutARangeOfExposures) {
-  const Image image = fixtures::flat(8, 8, 1, 1, 1);
-  EXPECT_TRUE(std::isnan(compare(image, image, {}).value("flip.hdr.mean")));
-}
-
-TEST(HdrFlip, SeesWhatIsTooBrightForOneExposure) {
-  const Image a = fixtures::flat(32, 32, 50, 50, 50), b = fixtures::flat(32, 32, 100, 100, 100);
-  ComparisonOptions options;
-  options.viewing.hdr_exposures = HdrExposures{-8, 0, 9};
-  const Comparison comparison = compare(a, b, options);
-  EXPECT_EQ(comparison.value("flip.ldr.mean"), 0);
-  EXPECT_GT(comparison.value("flip.hdr.mean"), 0.1);
-}
-
-TEST(HdrFlip, IsTheSameForHugeAndNegativeValuesAsForWhiteAndBlack) {
-  const Image black = fixtures::flat(16, 16, 0, 0, 0),
-              white = fixtures::flat(16, 16, 1e9f, 1e9f, 1e9f);
-  const Image huge = fixtures::flat(16, 16, 3e38f, 3e38f, 3e38f);
-  const Image negative = fixtures::flat(16, 16, -1, -1, -1);
-  ComparisonOptions options;
-  options.viewing.hdr_exposures = HdrExposures{0, 4, 2};
-  const double expected = compare(black, white, options).value("flip.hdr.mean");
-  EXPECT_EQ(compare(negative, huge, options).value("flip.hdr.mean"), expected);
 }
 
 TEST(HdrFlip, HasAnAutomaticRangeForASmallHighlightOnBlackFromTheMedianOfTheLitPixels) {
@@ -445,17 +347,6 @@ TEST(HdrFlip, HasAnAutomaticRangeForASmallHighlightOnBlackFromTheMedianOfTheLitP
   EXPECT_EQ(of_small.start_stops, of_lit.start_stops);
   EXPECT_EQ(of_small.stop_stops, of_lit.stop_stops);
   EXPECT_EQ(of_small.count, 4) << "256 is four stops above 16";
-}
-
-TEST(HdrFlip, RefusesAnAutomaticRangeOfBlackInWords) {
-  try {
-    automatic_exposures(fixtures::flat(8, 8, 0, 0, 0));
-    FAIL() << "it was accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInput);
-    EXPECT_STREQ(error.what(),
-                 "the automatic range of exposures needs a reference with a pixel above 0");
-  }
 }
 
 }  // namespace

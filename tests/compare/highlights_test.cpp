@@ -198,21 +198,6 @@ TEST(Highlights, SayHowTheyFallOff) {
   }
 }
 
-TEST(Highlights, OfPicturesWithoutAnySayWhy) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const auto why = [](int side, float value) {
-    Image image(side, side);
-    std::ranges::fill(image.values(), value);
-    const BlobProfiles all = measured(image);
-    EXPECT_EQ(all.highlights.size(), 1u);
-    return all.highlights.at(0).blobs.at(0).why_not;
-  };
-  EXPECT_EQ(why(16, nan), "no pixel is finite");
-  EXPECT_EQ(why(16, std::numeric_limits<float>::infinity()), "no pixel is finite");
-  for (const int side : {1, 64})
-    EXPECT_EQ(why(side, 0.5f), "nothing stands out: no pixel is brighter than its surroundings");
-}
-
 TEST(Highlights, OfAPictureWithThousandsAreTheBrightestAndTheRestIsCounted) {
   constexpr int kSide = 1136, kApart = 8;  // 142 x 142 of them
   const BlobProfiles all = measured(picture(kSide, kSide, [](double x, double y) {

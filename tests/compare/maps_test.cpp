@@ -87,11 +87,13 @@ TEST_P(EveryDifferenceMap, IsNanWhereAPictureIsNotFiniteAndNowhereElse) {
   for (std::size_t i = 0; i < map.size(); ++i) EXPECT_EQ(std::isnan(map[i]), i == 3 || i == 5) << i;
 }
 
-TEST(DifferenceMaps, AddUpToTheMetricsOfTheirName) {
-  const Image a = fixtures::noise(90, 70, 1, 1.2f), b = fixtures::noise(90, 70, 2, 1.1f);
-  const Comparison measured = compare(a, b, {});
+TEST(DifferenceMaps, AddUpToTheMetricsOfTheirNameAtTheSameExposure) {
+  const Image a = fixtures::noise(90, 70, 1, 0.12f), b = fixtures::noise(90, 70, 2, 0.11f);
+  ComparisonOptions options;
+  options.viewing.exposure_stops = 3;
+  const Comparison measured = compare(a, b, options);
   const auto map = [&](std::string_view id) {
-    return measure_difference_map(*find_difference_map(id), a, b, {});
+    return measure_difference_map(*find_difference_map(id), a, b, options.viewing);
   };
   EXPECT_FLOAT_EQ(float(largest_magnitude(map("abs"))), float(measured.value("max_abs")));
   EXPECT_NEAR(mean(map("signed")), measured.value("drift"), 1e-7);
@@ -105,28 +107,12 @@ TEST(DifferenceMaps, AddUpToTheMetricsOfTheirName) {
   EXPECT_FLOAT_EQ(float(largest_magnitude(map("flip.ldr"))), float(measured.value("flip.ldr.max")));
 }
 
-TEST(DifferenceMaps, LookAtThePicturesAtTheExposureThatTheMetricsHave) {
-  const Image a = fixtures::noise(40, 30, 1, 0.1f), b = fixtures::noise(40, 30, 2, 0.1f);
-  ComparisonOptions options;
-  options.viewing.exposure_stops = 3;
-  const auto map = measure_difference_map(*find_difference_map("ciede2000"), a, b, options.viewing);
-  EXPECT_NEAR(mean(map), compare(a, b, options).value("ciede2000.mean"), 1e-5);
-}
-
 TEST(DifferenceMaps, RelativeIsOfTheReferenceAndLargestWhereThatHasNothing) {
   Image a = fixtures::flat(3, 1, 1.5f, 1, 1), b = fixtures::flat(3, 1, 1, 1, 1);
   b.pixel(1, 0)[0] = 0;
   b.pixel(2, 0)[0] = -3;
   const auto map = measure_difference_map(*find_difference_map("relative"), a, b, {});
   EXPECT_THAT(map, ElementsAre(0.5f, std::numeric_limits<float>::max(), 1.5f));
-}
-
-TEST(DifferenceMaps, OfHdrFlipAreRefusedWithoutExposures) {
-  for (const DifferenceMap& map : difference_maps())
-    if (map.needs_exposures) {
-      EXPECT_THROW(measure_difference_map(map, Image(2, 3), Image(2, 3), {}), Error);
-      EXPECT_FALSE(map.in_gallery) << "its cells have no exposures";
-    }
 }
 
 TEST(DifferenceMaps, OfDifferentSizesAreRefused) {
@@ -167,16 +153,6 @@ TEST(ColourMaps, ShowWhatIsNotANumberInAColourOfItsOwn) {
   const std::vector<float> values{std::numeric_limits<float>::quiet_NaN()};
   for (const std::string_view name : colour_map_names())
     EXPECT_THAT(pixel(colour_picture(values, 1, 1, 1, name), 0), ElementsAre(0, 255, 0)) << name;
-}
-
-TEST(ColourMaps, ThatDoNotExistAreRefusedWithThoseThatDo) {
-  try {
-    colour_picture(std::vector<float>{0}, 1, 1, 1, "magna");
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean 'magma'?"));
-  }
 }
 
 }  // namespace

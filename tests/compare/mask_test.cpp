@@ -103,7 +103,8 @@ TEST(MaskedFigures, AreThoseOfPlainLoopsOverThePixelsInsideAndOutside) {
       maps[id] = measure_difference_map(*find_difference_map(id), a, b, options.viewing);
     for (const bool is_inside : {true, false}) {
       const std::string region = is_inside ? ".mask" : ".outside";
-      double count = 0, absolute = 0, squares = 0, sum = 0, relative = 0, largest = 0, peak = 0;
+      double count = 0, absolute = 0, squares = 0, sum = 0, relative = 0, largest = 0;
+      std::size_t where = 0;
       std::map<std::string, double> sums, most;
       for (std::size_t pixel = 0; pixel < a.pixel_count(); ++pixel) {
         if ((options.mask[pixel] != 0) != is_inside) continue;
@@ -111,7 +112,7 @@ TEST(MaskedFigures, AreThoseOfPlainLoopsOverThePixelsInsideAndOutside) {
         for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
           const double vb = b.values()[i], d = double(a.values()[i]) - vb;
           absolute += std::abs(d), squares += d * d, sum += d, relative += d * d / (vb * vb + 0.01);
-          largest = std::max(largest, std::abs(d)), peak = std::max(peak, vb);
+          if (std::abs(d) > largest) largest = std::abs(d), where = pixel;
         }
         for (const auto& [id, map] : maps) {
           sums[id] += double(map[pixel]);
@@ -125,6 +126,9 @@ TEST(MaskedFigures, AreThoseOfPlainLoopsOverThePixelsInsideAndOutside) {
       EXPECT_NEAR(value("drift"), sum / count / 3, 1e-12);
       EXPECT_NEAR(value("relmse.eps=0.01"), relative / count / 3, 1e-9);
       EXPECT_EQ(value("max_abs"), largest);
+      EXPECT_EQ(comparison.value("max_abs" + region + ".x"), double(where % 37));
+      EXPECT_EQ(comparison.value("max_abs" + region + ".y"), double(where / 37));
+      EXPECT_EQ(*comparison.mask_pixels, std::ranges::count(options.mask, 255));
       for (const auto& [id, total] : sums) {
         EXPECT_NEAR(value((id + ".mean").c_str()), total / count, 1e-7) << id << region;
         EXPECT_EQ(value((id + ".max").c_str()), most[id]) << id << region;

@@ -23,11 +23,11 @@ constexpr double kRelative = 0.5;  ///< a sample's standard deviation, of its me
 
 /// Sums over independent gamma-distributed samples of each value.
 struct Moments {
-  explicit Moments(std::uint64_t seed, int samples, double brightness = 1) : n(samples) {
+  Moments(std::uint64_t seed, int samples) : n(samples) {
     std::mt19937_64 random(seed);
     constexpr double kShape = 1 / (kRelative * kRelative);
     for (int i = 0; i < 3 * kPixels; ++i) {
-      const double expected = brightness * (0.2 + (i % 7) * 0.3);
+      const double expected = 0.2 + (i % 7) * 0.3;
       std::gamma_distribution<double> sample(kShape, expected / kShape);
       double sum = 0, squares = 0;
       for (int k = 0; k < n; ++k) {
@@ -167,17 +167,6 @@ TEST_F(NoiseLayers, OfMitsubaGiveNoMoreFalseDifferencesThanNominal) {
     return mitsuba(name, Moments(seed, 64));
   });
   EXPECT_LE(different, 4);
-}
-
-TEST_F(NoiseLayers, OfMitsubaFindATrueDifference) {
-  const auto a = mitsuba("a.exr", Moments(1, 64)), b = mitsuba("b.exr", Moments(2, 64, 1.05));
-  const Picture picture_a = read_picture(a, "path"), picture_b = read_picture(b, "path");
-  ComparisonOptions options;
-  options.noise.emplace();
-  options.noise->a = noise_of_layers(a, picture_a, {.samples = 64});
-  options.noise->b = noise_of_layers(b, picture_b, {.samples = 64});
-  const Comparison comparison = compare(picture_a.image, picture_b.image, options);
-  EXPECT_GT(comparison.value("z.max"), comparison.value("z.critical"));
 }
 
 /// As pbrt's GBufferFilm: the picture is RGB, the variance that of X, Y and Z.

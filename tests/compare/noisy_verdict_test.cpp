@@ -1,15 +1,9 @@
 // Verdicts on pictures with noise: same, different, or undecided.
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
-#include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
+
 #include <limits>
+
 #include "compare/compare.hpp"
-#include "compare/metrics/catalogue.hpp"
-#include "compare/uncertainty/critical.hpp"
-#include "compare/uncertainty/z_test.hpp"
 #include "core/error.hpp"
 #include "tests/compare/noisy_pictures.hpp"
 

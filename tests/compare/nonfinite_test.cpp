@@ -73,10 +73,12 @@ TEST(EqualNonfinite, LetsAPicturePassAgainstItselfAndNeverAgainstAnother) {
       PicturePair pair{{in_a ? b : a, {}, source}, {in_a ? a : b, {}, source}};
       const Comparison comparison = compare_pictures(pair, "a", "b", allowed);
       EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
+      EXPECT_EQ(in_a ? comparison.nonfinite.a : comparison.nonfinite.b, 1);
       const auto& first = in_a ? comparison.nonfinite.first->a : comparison.nonfinite.first->b;
       ASSERT_TRUE(first.has_value());
       EXPECT_EQ(std::size_t(first->y * 16 + first->x), at / 3);
       EXPECT_EQ(first->channel, std::string(1, "RGB"[at % 3]));
+      EXPECT_EQ(compare(in_a ? b : a, in_a ? a : b, {}).verdict, Verdict::kNonFinite);
     }
   }
   EXPECT_GT(different, 150);

@@ -81,13 +81,6 @@ TEST(Peak, OfAClippedHighlightIsTheMiddleOfItsPlateau) {
   }
 }
 
-TEST(Peak, BetweenFourEqualPixelsIsNoPlateau) {
-  const Peak peak = locate_peak(field_of(20, 20, SphereLobe{60, 10, 10, 0, 256}));
-  EXPECT_EQ(peak.found, PeakFound::kFitted);
-  EXPECT_NEAR(peak.place.x, 10, 1e-3);
-  EXPECT_NEAR(peak.place.y, 10, 1e-3);
-}
-
 TEST(Peak, AtTheBorderOrBesideAHoleIsTheBrightestPixel) {
   const Peak border = locate_peak(field_of(20, 20, [](double x, double) { return x; }));
   EXPECT_EQ(border.found, PeakFound::kPlateau) << "a whole column of it";
@@ -146,21 +139,6 @@ TEST(FieldRegion, HangsTogetherByCornersAndStopsAtHoles) {
   EXPECT_EQ(region_above(field, 0, 1).size(), 3u);
   EXPECT_EQ(region_above(field, 17, 1).size(), 1u);
   EXPECT_EQ(region_above(field, 0, 0).size(), 17u);
-}
-
-TEST(FieldAxes, AreThoseOfATiltedEllipse) {
-  const double c = std::cos(0.5), s = std::sin(0.5);
-  const Field field = field_of(80, 80, [&](double x, double y) {
-    const double u = c * (x - 41.3) + s * (y - 38.2), v = -s * (x - 41.3) + c * (y - 38.2);
-    return u * u / (20 * 20) + v * v / (8 * 8) < 1 ? 3.0 : 1.0;
-  });
-  const Axes axes = principal_axes(field, region_above(field, 38 * 80 + 41, 2), 1);
-  EXPECT_NEAR(axes.centre.x, 41.3, 0.1);
-  EXPECT_NEAR(axes.centre.y, 38.2, 0.1);
-  EXPECT_NEAR(axes.major.x, c, 0.01);
-  EXPECT_NEAR(axes.major.y, s, 0.01);
-  EXPECT_NEAR(2 * axes.major_sigma, 20, 0.2);
-  EXPECT_NEAR(2 * axes.minor_sigma, 8, 0.2);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "tests/compare/profiled_scene.hpp"
@@ -17,24 +16,6 @@ namespace lobelia {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-TEST(LobeAngle, IsWhereTheLobeHasFallenToTheValue) {
-  const Scene scene = scene_with("phong_rdf", 16);
-  const Highlight& highlight = scene.materials[0].highlight;
-  EXPECT_NEAR(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 0.5),
-              std::acos(std::pow(0.5, 1.0 / 16)), 1e-12);
-  EXPECT_NEAR(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 1e-3),
-              std::acos(std::pow(1e-3, 1.0 / 16)), 1e-12);
-}
-
-TEST(LobeAngle, OfALobeThatNeverFallsSoFarIsItsWidest) {
-  Scene scene = scene_with("blinn_phong_ndf", 16);
-  Highlight highlight = scene.materials[0].highlight;
-  highlight.exponent = 1e-3;
-  EXPECT_LE(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 1e-3), std::numbers::pi / 2);
-  EXPECT_GT(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 1e-3),
-            std::numbers::pi / 2 - 0.01);
-}
 
 TEST(ProfileScene, OfEveryModelHasTheRenderersHighlightOnTheFormula) {
   ASSERT_FALSE(models().empty());
@@ -77,18 +58,6 @@ TEST(ProfileScene, ComparesTheFirstPictureWithTheOthersAndAllWithTheFormula) {
   EXPECT_EQ(names,
             (std::vector<std::string>{"lobelia-povray", "lobelia-blender", "lobelia-analytic",
                                       "povray-analytic", "blender-analytic"}));
-}
-
-TEST(ProfileScene, OfTwoLightsHasBothInTheFormula) {
-  Scene scene = scene_with("phong_rdf", 16);
-  scene.lights.push_back(PointLight{{-4, 3, 4}, {20, 20, 20}});
-  const RenderResult rendered = render(scene, RenderOptions{});
-  for (const int light : {0, 1}) {
-    const Json record = as_json(profile_scene(scene, light, 0, {{"lobelia", &rendered.image}}));
-    EXPECT_LT(record["differences"]["lobelia-analytic"]["epicentre"]["maxRelPeak"].get<double>(),
-              2e-6)
-        << "light " << light;
-  }
 }
 
 TEST(ProfileScene, RefusesWhatTheSceneDoesNotHave) {
@@ -323,17 +292,6 @@ TEST(HighlightOfAScene, ThatIsNotThereSaysWhy) {
   EXPECT_TRUE(because([](Scene& s) {
                 s.materials[0].highlight.exponent = 1e4;
               }).starts_with("not resolved: "));
-}
-
-TEST(HighlightOfAScene, OfABrokenPictureSaysSo) {
-  const Scene scene = scene_with("phong_rdf", 64);
-  Image broken(scene.film.width, scene.film.height);
-  for (float& value : broken.values()) value = std::nanf("");
-  const Json h = highlight_in(scene, broken);
-  EXPECT_TRUE(h["because"].get<std::string>().ends_with("of its pixels are not finite")) << h;
-  EXPECT_EQ(h["energy"], "nan");
-  EXPECT_EQ(highlight_in(scene, Image(scene.film.width, scene.film.height))["because"],
-            "it is black");
 }
 
 TEST(HighlightOfAScene, OfADullMaterialIsNone) {

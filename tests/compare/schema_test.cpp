@@ -46,38 +46,32 @@ ComparisonOptions everything(const Image& image) {
   return options;
 }
 
-TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
-  const Image a = fixtures::highlight(180, 180, 10, 1), b = fixtures::highlight(180, 180, 11, 1.1);
-  Image broken = a;
-  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
-  for (const auto& [left, right] : {std::pair{&a, &b}, {&a, &a}, {&broken, &a}, {&a, &broken}}) {
-    EXPECT_EQ(schema_problems(record(*left, *right, {})), "");
-    EXPECT_EQ(schema_problems(record(*left, *right, everything(a))), "");
-  }
-  const records::Comparison both = record(a, b, everything(a));
-  EXPECT_EQ(both.verdict, "differs");
-  EXPECT_FALSE(both.disagreement.empty()) << "a record in which little is missing";
-}
-
 ComparisonOptions with_noise(ComparisonOptions options, const Image& image, float error) {
   options.noise = NoiseOptions{.a = fixtures::even_noise(image.width(), image.height(), error),
                                .bootstraps = 4};
   return options;
 }
 
-TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdictOnNoise) {
+TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
   const Image a = fixtures::highlight(180, 180, 10, 1), b = fixtures::highlight(180, 180, 11, 1.1);
   Image broken = a;
   broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
   std::set<std::string> verdicts;
-  for (const auto& [picture, error] :
-       {std::pair(&a, 1e-4f), {&b, 1e-4f}, {&a, 1.0f}, {&a, 0.0f}, {&broken, 1.0f}})
-    for (const ComparisonOptions& options : {ComparisonOptions(), everything(a)}) {
-      const records::Comparison made = record(*picture, a, with_noise(options, a, error));
-      EXPECT_EQ(schema_problems(made), "");
-      verdicts.insert(made.verdict);
-    }
-  EXPECT_EQ(verdicts, (std::set<std::string>{"different", "non-finite", "same", "undecided"}));
+  const auto expect_valid = [&](const records::Comparison& made) {
+    EXPECT_EQ(schema_problems(made), "");
+    verdicts.insert(made.verdict);
+  };
+  for (const ComparisonOptions& options : {ComparisonOptions(), everything(a)}) {
+    for (const auto& [left, right] : {std::pair{&a, &b}, {&a, &a}, {&broken, &a}, {&a, &broken}})
+      expect_valid(record(*left, *right, options));
+    for (const auto& [picture, error] :
+         {std::pair(&a, 1e-4f), {&b, 1e-4f}, {&a, 1.0f}, {&a, 0.0f}, {&broken, 1.0f}})
+      expect_valid(record(*picture, a, with_noise(options, a, error)));
+  }
+  EXPECT_EQ(verdicts, (std::set<std::string>{"different", "differs", "non-finite", "pass", "same",
+                                             "undecided"}));
+  EXPECT_FALSE(record(a, b, everything(a)).disagreement.empty())
+      << "a record in which little is missing";
 }
 
 TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
@@ -213,100 +207,40 @@ TEST(MetricsDocument, IsWhatTheProgramPrints) {
       << "run: lobelia compare --list-metrics > docs/metrics.md";
 }
 
+// Of what no law over random records spoils: keys in the depth, keys that need each other, and values.
+
 TEST(BrokenRecords, OfComparisonsAreRefused) {
   const Image image = fixtures::highlight(32, 32, 10, 1);
-  const Plain good = as_written(record(image, image, everything(image)));
-  const auto broken = [&](const auto& change) {
+  const Plain plain = as_written(record(image, image, everything(image))),
+              noisy = as_written(record(image, image, with_noise({}, image, 0.1f))),
+              files = as_written(record_of_files());
+  const auto broken = [](const Plain& good, const auto& change) {
     expect_refused<records::Comparison>(good, change);
   };
-  for (const auto& [key, value] : good.items())
-    if (key != "tolerance" && key != "mask" && key != "disagreement" && key != "warnings" &&
-        key != "notMeasured" && key != "madeBy")
-      broken([&](Plain& r) { r.erase(key); });
-  broken([](Plain& r) { r["verdict"] = "fine"; });
-  broken([](Plain& r) { r["kind"] = "render"; });
-  broken([](Plain& r) { r["schemaVersion"] = 2; });
-  broken([](Plain& r) { r["metrics"]["rmse"] = "small"; });
-  broken([](Plain& r) { r["metrics"]["new"] = nullptr; });
-  broken([](Plain& r) { r["limits"] = Plain::array(); });
-  broken([](Plain& r) { r["limits"][0].erase("pass"); });
-  broken([](Plain& r) { r["viewing"]["hdrExposures"]["count"] = 1; });
-  broken([](Plain& r) { r["viewing"]["display"].erase("view"); });
-  broken([](Plain& r) { r["viewing"]["display"]["decodedBy"] = "guess"; });
-  broken([](Plain& r) { r["disagreement"] = "none"; });
-  broken([](Plain& r) { r["tolerance"].erase("ofPeak"); });
-  broken([](Plain& r) { r["notMeasured"][0].erase("because"); });
-  broken([](Plain& r) { r["notMeasured"][0]["metric"] = 3; });
+  broken(plain, [](Plain& r) { r["verdict"] = "fine"; });
+  broken(plain, [](Plain& r) { r["limits"] = Plain::array(); });
+  broken(plain, [](Plain& r) { r["limits"][0].erase("pass"); });
+  broken(plain, [](Plain& r) { r["viewing"]["hdrExposures"]["count"] = 1; });
+  broken(noisy, [](Plain& r) { r["uncertainty"]["significance"] = 1; });
+  broken(noisy, [](Plain& r) { r["errorBars"]["rmse"]["standardError"] = -1; });
+  broken(noisy, [](Plain& r) { r["limits"][0]["standing"] = "maybe"; });
+  broken(files, [](Plain& r) { r["layers"][0].erase("metrics"); });
+  broken(files, [](Plain& r) { r["layers"][3].erase("problem"); });
+  broken(files, [](Plain& r) { r["layers"][4].erase("identical"); });
+  broken(files, [](Plain& r) { r["pictures"]["a"]["chromaticities"].erase(0); });
+  broken(files, [](Plain& r) { r["pictures"]["b"]["channels"] = Plain::array(); });
+  const Plain set = as_written(record_of_set());
+  expect_refused<records::ComparisonSet>(set, [](Plain& r) { r["pairs"][1].erase("error"); });
+  expect_refused<records::ComparisonSet>(
+      set, [](Plain& r) { r["pairs"][0]["comparison"].erase("metrics"); });
 }
 
-TEST(BrokenRecords, OfNoiseAreRefused) {
-  const Image image = fixtures::highlight(32, 32, 10, 1);
-  const Plain good = as_written(record(image, image, with_noise({}, image, 0.1f)));
-  const auto broken = [&](const auto& change) {
-    expect_refused<records::Comparison>(good, change);
-  };
-  broken([](Plain& r) { r["uncertainty"].erase("each"); });
-  broken([](Plain& r) { r["uncertainty"]["a"].erase("shared"); });
-  broken([](Plain& r) { r["uncertainty"]["significance"] = 1; });
-  broken([](Plain& r) { r["errorBars"]["rmse"].erase("low"); });
-  broken([](Plain& r) { r["errorBars"]["rmse"]["standardError"] = -1; });
-  broken([](Plain& r) { r["limits"][0]["standing"] = "maybe"; });
-}
-
-TEST(BrokenRecords, OfFilesAreRefused) {
-  const Plain good = as_written(record_of_files());
-  const auto broken = [&](const auto& change) {
-    expect_refused<records::Comparison>(good, change);
-  };
-  for (const auto& [key, value] : good["pictures"]["a"].items())
-    if (!key.starts_with("iccProfile") && key != "chromaticities" && key != "gainMap")
-      broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
-  for (const char* key : {"layer", "verdict", "pictures", "metrics"})
-    broken([&](Plain& r) { r["layers"][0].erase(key); });
-  broken([](Plain& r) { r["layers"][3].erase("problem"); });
-  broken([](Plain& r) { r["layers"][4].erase("identical"); });
-  broken([](Plain& r) { r["layers"][4]["overscan"].erase("width"); });
-  for (const char* key : {"layers", "alpha", "overscanPixels", "mipLevels"})
-    broken([&](Plain& r) { r["notCompared"].erase(key); });
-  broken([](Plain& r) { r["pictures"]["a"]["chromaticities"].erase(0); });
-  broken([](Plain& r) { r["layersInOne"].erase("a"); });
-  broken([](Plain& r) { r["pictures"]["b"]["displayWindow"]["width"] = 0; });
-  broken([](Plain& r) { r["pictures"]["b"]["channels"] = Plain::array(); });
-}
-
-TEST(BrokenRecords, OfNonfinitePlacesAreRefused) {
-  Image a = fixtures::highlight(32, 32, 10, 1), b = a;
-  a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
-  b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
-  Comparison comparison = compare(a, b, {});
-  comparison.nonfinite.equal_allowed = 7;
-  const Plain good = as_written(comparison_record(comparison, "a", "b"));
-  const auto broken = [&](const auto& change) {
-    expect_refused<records::Comparison>(good, change);
-  };
-  broken([](Plain& r) { r["nonfinite"]["first"]["a"].erase("channel"); });
-  Plain finite = good;
+TEST(BrokenRecords, OfPlacesThatAreFiniteAreRefused) {
+  Image image = fixtures::highlight(32, 32, 10, 1);
+  image.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
+  Plain finite = as_written(record(image, image, {}));
   finite["nonfinite"]["first"]["b"]["value"] = 1;
   EXPECT_THROW(records::parse_record<records::Comparison>(finite.dump(), "a test"), Error);
-  broken([](Plain& r) { r["nonfinite"]["equalAllowed"] = -1; });
-}
-
-TEST(BrokenRecords, OfASecondReferenceAreRefused) {
-  const Image a = fixtures::highlight(32, 32, 10, 1), c = fixtures::highlight(32, 32, 11, 1);
-  Comparison comparison = compare(a, c, {});
-  comparison.reference_floor = measure_reference_floor(a, c, {});
-  expect_refused<records::Comparison>(as_written(comparison_record(comparison, "a", "b", "c.exr")),
-                                      [](Plain& r) { r["referenceFloor"].erase("metrics"); });
-}
-
-TEST(BrokenRecords, OfSetsAreRefused) {
-  const Plain good = as_written(record_of_set());
-  for (const auto& [key, value] : good.items())
-    if (key != "madeBy")
-      expect_refused<records::ComparisonSet>(good, [&](Plain& r) { r.erase(key); });
-  expect_refused<records::ComparisonSet>(
-      good, [](Plain& r) { r["pairs"][0]["comparison"].erase("metrics"); });
-  expect_refused<records::ComparisonSet>(good, [](Plain& r) { r["pairs"][1].erase("error"); });
 }
 
 TEST(BrokenRecords, OfProfilesAreRefused) {
@@ -314,30 +248,10 @@ TEST(BrokenRecords, OfProfilesAreRefused) {
   const Image picture = render(scene, RenderOptions{}).image;
   const Plain good = as_written(profile_scene(scene, 0, 0, {{"a", &picture}}));
   const auto broken = [&](const auto& change) { expect_refused<records::Profile>(good, change); };
-  for (const auto& [key, value] : good.items())
-    if (key != "planeOfIncidence" && key != "lobe" && key != "subtracted" && key != "madeBy")
-      broken([&](Plain& r) { r.erase(key); });
-  for (const auto& [key, value] : good["images"]["a"]["highlight"].items())
-    broken([&](Plain& r) { r["images"]["a"]["highlight"].erase(key); });
-  for (const auto& [key, value] : good["zones"].items())
-    broken([&](Plain& r) { r["zones"].erase(key); });
-  broken([](Plain& r) { r["kind"] = "blob"; });
+  broken([](Plain& r) { r["images"]["a"]["highlight"].erase("peak"); });
   broken([](Plain& r) { r["images"]["a"]["highlight"]["peak"]["found"] = "guessed"; });
   broken([](Plain& r) { r["images"]["a"]["highlight"]["cosineLobe"]["exponent"] = "nan"; });
-  broken([](Plain& r) { r["differences"]["a-analytic"]["flank"].erase("rms"); });
-  broken([](Plain& r) { r["curve"]["a"][0] = "many"; });
   broken([](Plain& r) { r["zones"]["flankDegrees"].push_back(3); });
-}
-
-TEST(BrokenRecords, OfBlobsAreRefused) {
-  const Image picture = render(scene_with("phong_rdf", 64), RenderOptions{}).image;
-  const Plain good =
-      as_written(blob_record(measure_blobs({{"a", &picture}, {"b", &picture}}, {}).highlights[0]));
-  for (const auto& [key, value] : good.items())
-    if (key != "madeBy" && key != "id")
-      expect_refused<records::Blob>(good, [&](Plain& r) { r.erase(key); });
-  expect_refused<records::Blob>(good, [](Plain& r) { r["images"]["a"]["pixels"] = -1; });
-  expect_refused<records::Blob>(good, [](Plain& r) { r["images"]["a"]["remark"] = ""; });
 }
 
 }  // namespace

@@ -427,8 +427,10 @@ TEST(SetCsv, HasARowForEveryNameAndAsManyFieldsInEach) {
 }
 
 TEST(SetJunit, IsXmlWithACaseForEveryNameWhateverItHolds) {
+  PairReport known = compared("known.exr", 0.5f, 0.6f);
+  known.known = records::Known{"brighter", "9999-12-31", false};
   SetReport report = set_of({compared("<img onerror>&\x01\xff.exr", 0.5f, 0.6f), broken("x.exr"),
-                             compared("good.exr", 0.5f, 0.5f)});
+                             compared("good.exr", 0.5f, 0.5f), known});
   report.missing = {"gone.exr"};
   report.extra = {"new.exr"};
   report.not_followed = {"a/out"};
@@ -436,17 +438,18 @@ TEST(SetJunit, IsXmlWithACaseForEveryNameWhateverItHolds) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(text.c_str()));
   const auto suite = document.child("testsuites").child("testsuite");
-  EXPECT_EQ(suite.attribute("tests").as_int(), 6);
+  EXPECT_EQ(suite.attribute("tests").as_int(), 7);
   EXPECT_EQ(suite.attribute("failures").as_int(), 3);
   EXPECT_EQ(suite.attribute("errors").as_int(), 1);
-  EXPECT_EQ(suite.attribute("skipped").as_int(), 1);
+  EXPECT_EQ(suite.attribute("skipped").as_int(), 2);
   std::vector<std::string> outcomes;
   for (const auto one : suite.children("testcase"))
     outcomes.emplace_back(one.child("failure")   ? "failure"
                           : one.child("error")   ? "error"
                           : one.child("skipped") ? "skipped"
                                                  : "pass");
-  EXPECT_THAT(outcomes, ElementsAre("failure", "error", "pass", "failure", "skipped", "failure"));
+  EXPECT_THAT(outcomes,
+              ElementsAre("failure", "error", "pass", "skipped", "failure", "skipped", "failure"));
   EXPECT_STREQ(suite.child("testcase").attribute("name").as_string(),
                "<img onerror>&\\x01\\xff.exr");
   EXPECT_THAT(suite.child("testcase").child("failure").attribute("message").as_string(),

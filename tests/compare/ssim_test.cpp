@@ -90,28 +90,7 @@ TEST(Ssim, OfTwoGreysIsThePublishedValue) {
   EXPECT_NEAR(comparison.value("ssim"), (2 * x * y + 1e-4) / (x * x + y * y + 1e-4), 1e-7);
 }
 
-TEST(Ssim, AgreesWithADoubleLoopOverTheWindows) {
-  for (const auto& [width, height] : {std::pair{40, 33}, std::pair{11, 90}, std::pair{11, 11}}) {
-    const Image a = fixtures::noise(width, height, 1, 1.2f),
-                b = fixtures::noise(width, height, 2, 1);
-    EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(shown_luma(a), shown_luma(b))[0], 1e-12)
-        << width << " x " << height;
-  }
-}
-
-TEST(Ssim, OfLumaInDoubleIsTheSameToSixDigits) {
-  for (const float scale : {1.0f, 0.1f, 0.01f}) {
-    const Image a = fixtures::noise(64, 64, 1, scale), b = fixtures::highlight(64, 64, 4, scale);
-    std::array<LumaPlane, 2> planes{LumaPlane{64, 64, {}}, LumaPlane{64, 64, {}}};
-    for (std::size_t i = 0; i < a.pixel_count(); ++i) {
-      planes[0].values.push_back(float(plain_luma(fixtures::shown_at(DisplayLight(a, 0), i))));
-      planes[1].values.push_back(float(plain_luma(fixtures::shown_at(DisplayLight(b, 0), i))));
-    }
-    EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(planes[0], planes[1])[0], 1e-6);
-  }
-}
-
-TEST(Ssim, OfARandomMaskAgreesWithADoubleLoopOverTheWindowsAroundItsPixels) {
+TEST(Ssim, AgreesWithADoubleLoopOverTheWindowsAlsoAroundThePixelsOfARandomMask) {
   const Image a = fixtures::noise(40, 33, 1, 1.2f), b = fixtures::noise(40, 33, 2, 1);
   for (const std::uint64_t seed : {3, 4}) {
     const Image random = fixtures::noise(40, 33, seed, 1);
@@ -123,34 +102,9 @@ TEST(Ssim, OfARandomMaskAgreesWithADoubleLoopOverTheWindowsAroundItsPixels) {
     }
     const Comparison comparison = compare(a, b, options);
     const LumaPlane of_a = shown_luma(a), of_b = shown_luma(b);
+    EXPECT_NEAR(comparison.value("ssim"), plain_ssim(of_a, of_b)[0], 1e-12);
     EXPECT_NEAR(comparison.value("ssim.mask"), plain_ssim(of_a, of_b, options.mask)[0], 1e-12);
     EXPECT_NEAR(comparison.value("ssim.outside"), plain_ssim(of_a, of_b, rest)[0], 1e-12);
-  }
-}
-
-TEST(Ssim, OfTheNegativeOfAPatternIsNegative) {
-  const Image a = fixtures::noise(40, 40, 1, 1.0f);
-  Image b = a;
-  for (float& value : b.values()) value = 1 - value;
-  EXPECT_LT(compare(a, b, {}).value("ssim"), -0.5);
-}
-
-TEST(Ssim, FallsAsThePictureIsBlurredOrShifted) {
-  const Image reference = fixtures::noise(64, 64, 1, 1.0f);
-  double before = 1;
-  for (const int radius : {1, 2, 3}) {
-    Image blurred = reference;
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x)
-        for (std::size_t c = 0; c < 3; ++c) {
-          float sum = 0;
-          for (int dx = -radius; dx <= radius; ++dx)
-            sum += reference.pixel(std::clamp(x + dx, 0, 63), y)[c];
-          blurred.pixel(x, y)[c] = sum / float(2 * radius + 1);
-        }
-    const double value = compare(blurred, reference, {}).value("ssim");
-    EXPECT_LT(value, before) << radius;
-    before = value;
   }
 }
 
@@ -181,11 +135,6 @@ TEST(MsSsim, IsTheProductOfThePowersOfItsScales) {
   EXPECT_NEAR(compare(a, b, {}).value("ms_ssim"), expected, 1e-12);
 }
 
-TEST(MsSsim, OfTwoGreysIsTheLuminanceTermOfTheCoarsestScale) {
-  const Comparison comparison = compare(grey_code(176, 176, 128), grey_code(176, 176, 160), {});
-  EXPECT_NEAR(comparison.value("ms_ssim"), std::pow(comparison.value("ssim"), 0.1333), 1e-9);
-}
-
 TEST(MsSsim, IsLeftOutBelow176Pixels) {
   const Image small = fixtures::flat(175, 400, 1, 1, 1), enough = fixtures::flat(176, 400, 1, 1, 1);
   EXPECT_TRUE(std::isnan(compare(small, small, {}).value("ms_ssim")));
@@ -200,11 +149,6 @@ TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
   const LumaPlane plane = shown_luma(image);
   for (std::size_t i = 0; i < image.pixel_count(); ++i)
     EXPECT_NEAR(plane.values[i], plain_luma(fixtures::shown_at(shown, i)), 3e-7);
-}
-
-TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
-  EXPECT_NEAR(shown_luma(grey_code(1, 1, 128)).values[0], 128 / 255.0, 1e-7);
-  EXPECT_NEAR(shown_luma(fixtures::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
 }
 
 TEST(SsimScale, HasThePlainMeansOfItsRegionsAndTheNextScaleWhereverATileEnds) {

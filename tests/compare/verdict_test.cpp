@@ -19,7 +19,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr float kFloatNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 template <class Function>
 Error error_of(Function function) {
@@ -32,72 +31,6 @@ Error error_of(Function function) {
   return Error(ExitCode::kInternal, "");
 }
 
-TEST(Verdict, OfAPictureWithItselfIsPass) {
-  const Image image = fixtures::highlight(32, 32, 10, 2.0);
-  const Comparison comparison = compare(image, image, {});
-  EXPECT_EQ(comparison.verdict, Verdict::kPass);
-  EXPECT_EQ(comparison.limits.size(), default_limits().size());
-}
-
-TEST(Verdict, OfOneBadPixelInManyIsNonFinite) {
-  const Image good = fixtures::highlight(256, 256, 10, 2.0);
-  for (const float bad : {kFloatNaN, kFloatInfinity, -kFloatInfinity})
-    for (const std::size_t channel : {0u, 1u, 2u}) {
-      Image broken = good;
-      broken.pixel(200, 201)[channel] = bad;
-      for (const bool in_a : {true, false}) {
-        const Comparison comparison = in_a ? compare(broken, good, {}) : compare(good, broken, {});
-        EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
-        EXPECT_EQ(comparison.nonfinite.a, in_a ? 1 : 0);
-        EXPECT_EQ(comparison.nonfinite.b, in_a ? 0 : 1);
-        EXPECT_TRUE(comparison.metrics.empty());
-        for (const LimitResult& limit : comparison.limits) EXPECT_FALSE(limit.pass);
-      }
-    }
-}
-
-TEST(Verdict, OfTwoPicturesBrokenInTheSameWayIsNonFinite) {
-  const Image broken = fixtures::flat(4, 4, kFloatNaN, kFloatNaN, kFloatNaN);
-  const Comparison comparison = compare(broken, broken, {});
-  EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
-  EXPECT_EQ(comparison.nonfinite.a, 16) << "pixels are counted, not values";
-}
-
-TEST(Verdict, FollowsTheLimitsOfTheUser) {
-  const Image a = fixtures::flat(8, 8, 0.5f, 0.5f, 0.5f),
-              b = fixtures::flat(8, 8, 0.75f, 0.5f, 0.5f);
-  ComparisonOptions options;
-  options.default_limits = false;
-  options.limits = {{"max_abs", 0.25}};
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass) << "the limit itself passes";
-  options.limits = {{"max_abs", 0.2499}};
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers);
-  options.limits = {{"max_abs", 1}, {"rmse", 0.01}};
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers) << "one limit is enough";
-}
-
-TEST(Verdict, FollowsALimitBelowAndALimitOnASize) {
-  const Image a = fixtures::flat(8, 8, 0.5f, 0.5f, 0.5f), b = fixtures::flat(8, 8, 1, 0.5f, 0.5f);
-  ComparisonOptions options;
-  options.default_limits = false;
-  options.limits = {{"psnr", 10}, {"drift", 0.17}};  // 10.8 dB, -1/6
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass);
-  options.limits = {{"psnr", 11}};
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers);
-  options.limits = {{"drift", 0.16}};
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers);
-  options.limits = {{"psnr", -5}};
-  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass) << "a ratio may be below 1";
-}
-
-TEST(Verdict, OfADefaultComparisonSeesAWrongNormalisationAndPassesHalfFloatRounding) {
-  const Image reference = fixtures::highlight(128, 128, 10, 1.0);
-  EXPECT_EQ(compare(fixtures::highlight(128, 128, 10, 1.0005), reference, {}).verdict,
-            Verdict::kPass);
-  EXPECT_EQ(compare(fixtures::highlight(128, 128, 10, 1.03), reference, {}).verdict,
-            Verdict::kDiffers);
-}
-
 TEST(Verdict, AgainstABlackReferenceIsDiffers) {
   EXPECT_EQ(compare(fixtures::flat(4, 4, 1e-6f, 0, 0), fixtures::flat(4, 4, 0, 0, 0), {}).verdict,
             Verdict::kDiffers);
@@ -106,7 +39,7 @@ TEST(Verdict, AgainstABlackReferenceIsDiffers) {
 TEST(Tolerance, CountsPixelsAndAllowsSoMany) {
   const Image b = fixtures::flat(10, 10, 1, 0.001f, 0);
   Image a = b;
-  a.pixel(1, 1)[0] = 1.1f;
+  a.pixel(1, 1)[0] = 9;     // the peak is the reference's
   a.pixel(1, 1)[1] = 0.5f;  // the same pixel again
   a.pixel(2, 2)[2] = 0.5f;
   a.pixel(3, 3)[0] = 1.0005f;           // within the relative part
@@ -125,28 +58,19 @@ TEST(Tolerance, CountsPixelsAndAllowsSoMany) {
   EXPECT_EQ(comparison.limits[0].metric, "outliers");
 }
 
-TEST(Tolerance, IsNotMeasuredUnlessAskedFor) {
-  const Image image = fixtures::flat(4, 4, 1, 1, 1);
-  EXPECT_TRUE(std::isnan(compare(image, image, {}).value("outliers")));
-}
-
-TEST(Comparison, RefusesSizesThatDiffer) {
-  const Error error =
-      error_of([] { compare(fixtures::flat(4, 8, 0, 0, 0), fixtures::flat(8, 4, 0, 0, 0), {}); });
-  EXPECT_EQ(error.code(), ExitCode::kInput);
-  EXPECT_STREQ(error.what(), "the sizes differ: 4 x 8 against 8 x 4");
-}
-
 TEST(Comparison, RefusesPicturesWithoutPixels) {
   EXPECT_EQ(error_of([] { compare(Image(), Image(), {}); }).code(), ExitCode::kInput);
 }
 
 TEST(Comparison, SuggestsTheMetricThatWasMeant) {
-  ComparisonOptions options;
-  options.limits = {{"ciede2000.p96", 1}};
-  const Error error = error_of([&] { check_options(options); });
-  EXPECT_EQ(error.code(), ExitCode::kUsage);
-  EXPECT_THAT(error.what(), HasSubstr("did you mean 'ciede2000.p95'?"));
+  ComparisonOptions limited, measured;
+  limited.limits = {{"ciede2000.p96", 1}};
+  measured.metrics = {"ciede2000.p96"};
+  for (const ComparisonOptions& options : {limited, measured}) {
+    const Error error = error_of([&] { check_options(options); });
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'ciede2000.p95'?"));
+  }
 }
 
 TEST(Comparison, RefusesALimitOnAPlaceOrAScale) {
@@ -182,25 +106,6 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
   check_options({});
 }
 
-TEST(Mask, HasErrorsOfItsOwn) {
-  const Image b = fixtures::flat(4, 2, 1, 1, 1);
-  Image a = b;
-  a.pixel(0, 0)[0] = 4;  // outside
-  a.pixel(2, 1)[0] = 1.75f;
-  a.pixel(3, 1)[2] = 0.5f;
-  ComparisonOptions options;
-  options.mask = {0, 0, 0, 0, 0, 0, 1, 255};
-  const Comparison comparison = compare(a, b, options);
-  EXPECT_EQ(comparison.mask_pixels, 2);
-  EXPECT_DOUBLE_EQ(comparison.value("mae.mask"), 1.25 / 6);
-  EXPECT_DOUBLE_EQ(comparison.value("drift.mask"), 0.25 / 6);
-  EXPECT_DOUBLE_EQ(comparison.value("rmse.mask"), std::sqrt((0.5625 + 0.25) / 6));
-  EXPECT_EQ(comparison.value("max_abs.mask"), 0.75);
-  EXPECT_EQ(comparison.value("max_abs.mask.x"), 2);
-  EXPECT_EQ(comparison.value("max_abs.mask.y"), 1);
-  EXPECT_EQ(comparison.value("max_abs"), 3);
-}
-
 TEST(Mask, WithoutAPixelMeasuresNothingAndPassesNothing) {
   const Image image = fixtures::flat(2, 2, 1, 1, 1);
   ComparisonOptions options;
@@ -210,13 +115,6 @@ TEST(Mask, WithoutAPixelMeasuresNothingAndPassesNothing) {
   EXPECT_EQ(comparison.mask_pixels, 0);
   EXPECT_TRUE(std::isnan(comparison.value("mae.mask")));
   EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
-}
-
-TEST(Mask, OfAnotherSizeIsRefused) {
-  const Image image = fixtures::flat(2, 2, 1, 1, 1);
-  ComparisonOptions options;
-  options.mask.assign(5, 1);
-  EXPECT_EQ(error_of([&] { compare(image, image, options); }).code(), ExitCode::kInput);
 }
 
 TEST(DifferencePicture, ShowsTheErrorAsAShareOfWhite) {

@@ -20,9 +20,6 @@
 #include <fstream>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
 #include "core/interrupt.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
@@ -30,6 +27,7 @@
 #include "core/spawn.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/core/format_samples.hpp"
+#include "tests/core/picture_fixture.hpp"
 
 namespace lobelia {
 namespace {
@@ -38,28 +36,7 @@ namespace fs = std::filesystem;
 using namespace fixtures;
 using ::testing::HasSubstr;
 
-class ContainedReader : public ::testing::Test {
- protected:
-  fs::path file(const std::string& name, const std::string& bytes) {
-    write_file(directory_.path() / name, bytes);
-    return directory_.path() / name;
-  }
-  TemporaryDirectory directory_;
-};
-
-std::string refusal(const fs::path& path) {
-  try {
-    read_image(path);
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(error.code(), ExitCode::kInput) << message;
-    EXPECT_THAT(message, HasSubstr(path.string()));
-    EXPECT_EQ(message.find('\n'), message.npos) << message;
-    return message;
-  }
-  ADD_FAILURE() << path << " was read";
-  return "";
-}
+using ContainedReader = PictureFiles;
 
 /// Each ends OpenImageIO 2.4.7 by a signal.
 std::vector<Sample> crashers(const fs::path& scratch) {
@@ -195,10 +172,11 @@ TEST_F(ContainedReader, RefusesOtherFormatsByTheirFirstBytesUnderAnyName) {
 }
 
 TEST_F(ContainedReader, OpensOtherFormatsWhereAnyIsAskedFor) {
-  const auto gif = file("a.gif", gif_file({"\xff\xff\xff"}));
+  const auto gif = file("a.gif", gif_file({"\xff\xff\xff", std::string(3, '\0')}));
   refusal(gif);
   read_any_picture_format(true);
   EXPECT_EQ(read_image(gif).pixel(0, 0)[1], 1);
+  EXPECT_EQ(read_picture(gif, "part2").image.pixel(0, 0)[1], 0) << "the second frame";
   EXPECT_EQ(read_image(file("renamed.exr", gif_file({"\xff\xff\xff"}))).pixel(0, 0)[1], 1);
   for (const Sample& sample : format_samples())
     if (sample.name.starts_with("rgb")) {

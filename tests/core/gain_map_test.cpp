@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <random>
 
 #include "core/colour.hpp"
 #include "core/image_io.hpp"
@@ -183,28 +182,6 @@ TEST_F(GainMaps, ThatAreMissingOrImpossibleAreAnErrorOfThePicture) {
               HasSubstr("are impossible"));
 }
 
-TEST_F(GainMaps, OfHostileFilesAreFoundOrRefusedAndDoNoHarm) {
-  const std::string good =
-      ultra_hdr(base_, with_segments(block_jpeg(1, 1, 1, {180}), xmp_of({}) + iso_of({})));
-  const auto find = [](const std::string& bytes) {
-    try {
-      if (const auto gain = find_gain_map("a.jpg", bytes)) {
-        EXPECT_GE(gain->jpeg.data(), bytes.data());
-        EXPECT_LE(gain->jpeg.data() + gain->jpeg.size(), bytes.data() + bytes.size());
-      }
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kInput);
-    }
-  };
-  for (std::size_t length = 0; length < good.size(); ++length) find(good.substr(0, length));
-  std::mt19937 random(1);
-  for (int i = 0; i < 5000; ++i) {
-    std::string bad = good;
-    for (int k = 0; k < 4; ++k) bad[random() % bad.size()] = char(random());
-    find(bad);
-  }
-}
-
 class HdrCurves : public PictureFiles {
  protected:
   /// Light of a PNG of 16 bits with these RGB codes from 0 to 1.
@@ -252,17 +229,6 @@ TEST_F(HdrCurves, OfHlgIsTheLightOfItsNominalDisplay) {
   const Image image = read(18, 9, {0.5, 0.2, 0.1});
   for (std::size_t c = 0; c < 3; ++c)
     EXPECT_NEAR(image.values()[c], expected.values()[c], 1e-4 * expected.values()[0]);
-}
-
-TEST_F(HdrCurves, HaveThePrimariesOfTheirChunk) {
-  const double code = 0.580689;
-  for (const int primaries : {1, 9, 12}) {
-    const Image white = read(16, primaries, {code, code, code, code, 0, 0});
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(white.pixel(0, 0)[c], 1, 1e-3) << primaries;
-    const RgbMatrix matrix = *to_rec709(*chromaticities_of_code_point(primaries));
-    for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(white.pixel(1, 0)[c], matrix[c][0], 1e-3) << primaries;
-  }
 }
 
 }  // namespace

@@ -160,22 +160,6 @@ TEST_F(IccProfiles, OfPrimariesAndCurvesAreAppliedWithoutClipping) {
   expect_near(read(profile(table(4096, 0), kDisplayP3)).image, expected(kP3, srgb_light), 6e-4);
 }
 
-TEST_F(IccProfiles, ThatLittleCmsMakesAreAppliedToo) {
-  const cmsCIExyY white{0.3127, 0.3290, 1};
-  const cmsCIExyYTRIPLE primaries{{0.680, 0.320, 1}, {0.265, 0.690, 1}, {0.150, 0.060, 1}};
-  cmsToneCurve* const curve = cmsBuildGamma(nullptr, 2.2);
-  cmsToneCurve* curves[] = {curve, curve, curve};
-  void* const made = cmsCreateRGBProfile(&white, &primaries, curves);
-  std::uint32_t size = 0;
-  cmsSaveProfileToMem(made, nullptr, &size);
-  std::string bytes(size, '\0');
-  cmsSaveProfileToMem(made, bytes.data(), &size);
-  cmsCloseProfile(made);
-  cmsFreeToneCurve(curve);
-  expect_near(read(bytes).image, expected(kP3, [](double value) { return std::pow(value, 2.2); }),
-              2e-4);
-}
-
 /// PCS Lab of an RGB of Display P3, for a table.
 int lab_of_p3(const cmsUInt16Number in[], cmsUInt16Number out[], void*) {
   const double columns[3][3] = {

@@ -1,19 +1,15 @@
 // What the values of a file mean, by files made for that.
-#include <ImfDeepFrameBuffer.h>
-#include <ImfDeepScanLineOutputFile.h>
 #include <ImfEnvmap.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
-#include "core/contained_reader.hpp"
-#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/picture.hpp"
-#include "core/picture_file.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/core/picture_fixture.hpp"
 
@@ -70,29 +66,6 @@ TEST_F(Layers, OfSeveralPartsAreReadFromTheirPart) {
   EXPECT_THAT(values(read_picture(path, "depth").image), ElementsAre(70, 70, 70, 80, 80, 80));
 }
 
-TEST_F(Layers, OfAVectorOfTwoAreItsComponents) {
-  const auto path = exr("a.exr", 1, 1, {{"Y", {9}}, {"motion.x", {1}}, {"motion.y", {2}}});
-  const Picture motion = read_picture(path, "motion");
-  EXPECT_THAT(values(motion.image), ElementsAre(1, 2, 0));
-  EXPECT_THAT(motion.source.channels, ElementsAre("motion.x", "motion.y"));
-  EXPECT_THAT(motion.source.layers, ElementsAre("", "motion"));
-}
-
-TEST_F(Layers, OfLuminanceAloneIsGrey) {
-  EXPECT_THAT(values(read_image(exr("y.exr", 1, 1, {{"Y", {0.25f}}}))),
-              ElementsAre(0.25f, 0.25f, 0.25f));
-  EXPECT_THAT(refusal(exr("uv.exr", 1, 1, {{"u", {0}}, {"v", {0}}})),
-              HasSubstr("its channels are 'u', 'v'"));
-}
-
-TEST_F(Layers, OfAnAnimationAreItsFramesAndTheFirstIsThePicture) {
-  const auto path = file("a.gif", gif_file({"\xff\xff\xff", std::string(3, '\0')}));
-  read_any_picture_format(true);
-  EXPECT_THAT(values(read_image(path)), ElementsAre(1, 1, 1));
-  EXPECT_THAT(values(read_picture(path, "part2").image), ElementsAre(0, 0, 0));
-  read_any_picture_format(false);
-}
-
 using Windows = PictureFiles;
 
 TEST_F(Windows, WhereThereAreNoDataThePictureIsBlackAndWhatLiesOutsideIsCutOff) {
@@ -106,6 +79,10 @@ TEST_F(Windows, WhereThereAreNoDataThePictureIsBlackAndWhatLiesOutsideIsCutOff) 
   for (std::size_t i = 0; i < picture.image.values().size(); i += 3)
     grey.push_back(picture.image.values()[i]);
   EXPECT_THAT(grey, ElementsAre(0, 0, 0, 0, 0, 0, 1, 2, 0, 0, 4, 5, 0, 0, 0, 0));
+  ASSERT_EQ(picture.overscan.width(), 3) << "what lies outside comes whole, by itself";
+  ASSERT_EQ(picture.overscan.height(), 2);
+  EXPECT_EQ(picture.overscan.pixel(2, 1)[2], 6);
+  EXPECT_EQ(read_picture(exr("b.exr", 1, 1, {{"Y", {1}}}), "").overscan.pixel_count(), 0u);
 }
 
 TEST_F(Windows, ThatDoNotMeetAreRefused) {
@@ -136,62 +113,43 @@ TEST_F(Windows, OfAPngAreAPlaceOnAPage) {
   EXPECT_THAT(values(read_image(file("a.png", png_file(png)))), ElementsAre(1, 1, 1));
 }
 
+/// An EXR in tiles, with smaller levels: `level(i)` gives the values of level i, in rows as long as those of the first.
+void write_mip_map(const std::filesystem::path& path, Imf::Header header, unsigned tile,
+                   const std::function<std::vector<float>(int)>& level) {
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  header.setTileDescription({tile, tile, Imf::MIPMAP_LEVELS});
+  const auto row = 4 * std::size_t(header.dataWindow().max.x + 1);
+  Imf::TiledOutputFile tiled(path.c_str(), header);
+  for (int i = 0; i < tiled.numLevels(); ++i) {
+    std::vector<float> grey = level(i);
+    Imf::FrameBuffer buffer;
+    buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, row));
+    tiled.setFrameBuffer(buffer);
+    tiled.writeTiles(0, tiled.numXTiles(i) - 1, 0, tiled.numYTiles(i) - 1, i);
+  }
+}
+
 TEST_F(Windows, OfATiledMipMapAreThoseOfItsFirstLevel) {
   const auto path = directory_.path() / "a.exr";
-  Imf::Header header(5, 3);
-  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-  header.setTileDescription({2, 2, Imf::MIPMAP_LEVELS});
-  {
-    Imf::TiledOutputFile tiled(path.c_str(), header);
-    for (int level = 0; level < tiled.numLevels(); ++level) {
-      std::vector<float> grey(15, float(level + 1));
-      Imf::FrameBuffer buffer;
-      buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 20));
-      tiled.setFrameBuffer(buffer);
-      tiled.writeTiles(0, tiled.numXTiles(level) - 1, 0, tiled.numYTiles(level) - 1, level);
-    }
-  }
+  write_mip_map(path, Imf::Header(5, 3), 2,
+                [](int level) { return std::vector<float>(15, float(level + 1)); });
   EXPECT_THAT(values(read_image(path)),
               ::testing::AllOf(::testing::SizeIs(45), ::testing::Each(1)));
   EXPECT_THAT(layer_names(path), ElementsAre(""));
 }
 
-/// A cube map: six faces of 4 x 4, one below the other.
-void write_cube_map(const std::filesystem::path& path, const std::vector<float>& face_values) {
-  constexpr int kSide = 4;
-  Imf::Header header(kSide, 6 * kSide);
-  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-  header.setTileDescription({kSide, kSide, Imf::MIPMAP_LEVELS});
-  Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
-  Imf::TiledOutputFile tiled(path.c_str(), header);
-  for (int level = 0; level < tiled.numLevels(); ++level) {
-    std::vector<float> grey(6 * kSide * kSide);
-    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = face_values[i / (kSide * kSide)];
-    Imf::FrameBuffer buffer;
-    buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 4 * kSide));
-    tiled.setFrameBuffer(buffer);
-    tiled.writeTiles(0, tiled.numXTiles(level) - 1, 0, tiled.numYTiles(level) - 1, level);
-  }
-}
-
 TEST_F(Windows, OfACubeMapHoldAllSixFaces) {
+  // Six faces of 4 x 4, one below the other.
   const auto path = directory_.path() / "cube.exr";
-  write_cube_map(path, {1, 2, 3, 4, 5, 6});
+  Imf::Header header(4, 24);
+  Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+  std::vector<float> faces;
+  for (int i = 0; i < 96; ++i) faces.push_back(float(i / 16 + 1));
+  write_mip_map(path, header, 4, [&](int) { return faces; });
   const Picture picture = read_picture(path, "");
   EXPECT_EQ(picture.source.display, (PixelWindow{0, 0, 4, 24}));
   for (int y = 0; y < 24; ++y) EXPECT_EQ(picture.image.pixel(3, y)[0], float(y / 4 + 1)) << y;
   EXPECT_EQ(picture.source.mip_levels, 5) << "24, 12, 6, 3, 1 rows";
-}
-
-TEST_F(Windows, OfDataThatLeaveTheDisplayComeWhole) {
-  const auto path =
-      exr("a.exr", {{"", window(1, 1, 3, 2), window(0, 0, 2, 2), {{"Y", {1, 2, 3, 4, 5, 6}}}}});
-  const Picture picture = read_picture(path, "");
-  EXPECT_THAT(values(picture.image), ElementsAre(0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1));
-  EXPECT_EQ(picture.overscan.width(), 3);
-  EXPECT_EQ(picture.overscan.height(), 2);
-  EXPECT_EQ(picture.overscan.pixel(2, 1)[2], 6);
-  EXPECT_EQ(read_picture(exr("b.exr", 1, 1, {{"Y", {1}}}), "").overscan.pixel_count(), 0u);
 }
 
 using Curves = PictureFiles;

@@ -189,18 +189,6 @@ TEST_F(PlainPicture, ThatIsDamagedIsReadAsByOpenImageIoOrLeftToIt) {
   EXPECT_GT(plain_ones, 40);
 }
 
-TEST_F(PlainPicture, IsWhatThisProgramWrites) {
-  const Image image(33, 17);
-  write_exr(directory_.path() / "a.exr", image, {{"Software", "Lobelia"}});
-  const std::string exr = read_file(directory_.path() / "a.exr", 1 << 20);
-  EXPECT_TRUE(read_plain_picture(bytes_of(exr, "openexr"), ""));
-  const std::string png = png_bytes({5, 4, std::vector<std::uint8_t>(60, 99)}, {{"Title", "ä"}});
-  const auto plain = read_plain_picture(bytes_of(png, "png"), "");
-  ASSERT_TRUE(plain);
-  EXPECT_TRUE(
-      are_same_values(plain->image, image_io_table().read_picture(bytes_of(png, "png"), "").image));
-}
-
 TEST_F(PlainPicture, WithoutABlockFarBelowIsLeftToOpenImageIoBeforeAnyBandIsGivenOn) {
   const Image image(2100, 2060);
   const auto path = directory_.path() / "large.exr";

@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <functional>
 #include <future>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -29,22 +28,6 @@ using std::chrono::seconds;
 
 std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "-c", script}; }
 
-/// A stdin that tells whether anybody who was given it still lives.
-struct Lifeline {
-  Lifeline() { EXPECT_EQ(::pipe2(ends_, O_CLOEXEC), 0); }
-  ~Lifeline() {
-    for (const int end : ends_) ::close(end);
-  }
-  int input() const { return ends_[0]; }
-  /// Closes our own end first, so that only other processes count.
-  bool nobody_lives() {
-    ::close(std::exchange(ends_[0], -1));
-    pollfd writer{ends_[1], 0, 0};
-    return ::poll(&writer, 1, 0) == 1;
-  }
-  int ends_[2];
-};
-
 TEST(Process, ReportsItsExitCodeAndItsOutputLineByLine) {
   std::vector<std::string> lines;
   ProcessOptions options;
@@ -55,29 +38,12 @@ TEST(Process, ReportsItsExitCodeAndItsOutputLineByLine) {
   EXPECT_EQ(result.output_tail, "one\ntwo\nthree");
 }
 
-TEST(Process, IsKilledIfItsReaderThrows) {
-  Lifeline line;
-  ProcessOptions options;
-  options.input = line.input();
-  options.on_line = [](std::string_view) { throw std::runtime_error("no more"); };
-  EXPECT_THROW(run_process(shell("echo hello; sleep 1000"), options), std::runtime_error);
-  EXPECT_TRUE(line.nobody_lives());
-}
-
-TEST(Process, ArgumentsAreNotSeenByAShell) {
-  const auto result = run_process({"/bin/echo", "$HOME; `id` 'x'"}, {});
-  EXPECT_EQ(result.output_tail, "$HOME; `id` 'x'\n");
-}
-
-TEST(Process, OverItsTimeIsKilledWithItsChildren) {
-  Lifeline line;
+TEST(Process, OverItsTimeIsKilled) {
   ProcessOptions options;
   options.timeout = std::chrono::milliseconds(300);
-  options.input = line.input();
-  const auto result = run_process(shell("exec 3<&0; sleep 1000 & sleep 1000"), options);
+  const auto result = run_process(shell("sleep 1000"), options);
   EXPECT_TRUE(result.timed_out);
-  EXPECT_LT(result.seconds, 900) << "it was not waited for";
-  EXPECT_TRUE(line.nobody_lives());
+  EXPECT_FALSE(result.no_progress);
 }
 
 TEST(Process, WithoutAnySignOfProgressIsKilledLongBeforeItsTime) {
@@ -156,10 +122,6 @@ TEST(Process, IsKilledWhenItsCallerWantsItStopped) {
   const auto result = run_process(shell("echo go; sleep 60"), options);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.exit_code, 128 + 9);
-}
-
-TEST(Process, ThatDiesOfASignalHasItInTheExitCode) {
-  EXPECT_EQ(run_process(shell("kill -SEGV $$"), {}).exit_code, 128 + 11);
 }
 
 TEST(Process, ThatCannotBeStartedIsAnEngineErrorThatSaysWhy) {
@@ -388,28 +350,6 @@ TEST(Process, GoesOnWithoutUsIfItMustNotBeCutInTwo) {
   pollfd writer{ends[1], 0, 0};
   EXPECT_EQ(::poll(&writer, 1, 300), 0) << "it is gone";
   ::close(ends[1]);
-}
-
-TEST(Process, SeesOurEnvironmentWithTheChangesAsked) {
-  ProcessOptions options;
-  options.environment = {"HOME=/somewhere", "LOBELIA_TEST=a b"};
-  const auto result = run_process(shell("echo \"$HOME|$LOBELIA_TEST|${PATH:+path}\""), options);
-  EXPECT_EQ(result.output_tail, "/somewhere|a b|path\n");
-}
-
-TEST(Process, SeesNothingButWhatItIsGivenIfAsked) {
-  ProcessOptions options;
-  options.environment = {"LOBELIA_TEST=a b"};
-  options.only_environment = true;
-  EXPECT_EQ(run_process({"/usr/bin/env"}, options).output_tail, "LOBELIA_TEST=a b\n");
-}
-
-TEST(Process, WritesItsOutputToTheLog) {
-  const TemporaryDirectory directory;
-  ProcessOptions options;
-  options.log = directory.path() / "log";
-  run_process(shell("echo hello"), options);
-  EXPECT_EQ(read_file(options.log, 100), "hello\n");
 }
 
 TEST(Process, WritesNowhereButWhereItMay) {

@@ -47,13 +47,6 @@ TEST_F(ScratchMemory, IsZeroAndKeepsWhatWasWrittenThoughNothingStaysInMemory) {
   }
 }
 
-TEST_F(ScratchMemory, LeavesTheMemoryAfterItWasLookedAt) {
-  Memory memory(16 * kSmall, 1);
-  const std::size_t before = kibibytes_of_files_in_memory();
-  looked_at(kAllOfThem);
-  EXPECT_GT(before, kibibytes_of_files_in_memory() + 15 * kSmall / 1024);
-}
-
 TEST_F(ScratchMemory, HoldsWhatIsASixteenthOfAPictureWhileThePictureIsThere) {
   keep_large_pieces_in_files(16 * kSmall);
   const auto leaves_memory = [] {

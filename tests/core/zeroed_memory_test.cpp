@@ -25,17 +25,5 @@ TEST(ZeroedMemory, TooMuchIsAnExceptionAndNoCrash) {
   EXPECT_THROW(memory.allocate(SIZE_MAX / 4), std::bad_alloc);
 }
 
-TEST(Image, IsBlackAtFirstAndCopiesKeepTheirOwnValues) {
-  Image image(1024, 700);
-  for (const float v : image.values()) ASSERT_EQ(v, 0);
-  image.pixel(1, 2)[0] = 5;
-  Image copy = image;
-  copy.pixel(1, 2)[1] = 7;
-  EXPECT_EQ(image.pixel(1, 2)[1], 0);
-  EXPECT_EQ(copy.pixel(1, 2)[0], 5);
-  image = std::move(copy);
-  EXPECT_EQ(image.pixel(1, 2)[1], 7);
-}
-
 }  // namespace
 }  // namespace lobelia

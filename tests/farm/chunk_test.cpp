@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
 #include "farm_fixture.hpp"
 #include "tests/json.hpp"
 
@@ -11,11 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kPictures[] = "*render:*reference*", kTheRest[] = "*compare*:*profile";
+
 class ChunkTest : public FarmTest {
  protected:
   /// Writes a chunk of the jobs whose names a filter picks; returns its file.
-  fs::path chunk(const Grid& grid, const std::string& patterns) const {
-    FarmOptions options;
+  fs::path chunk(const Grid& grid, const std::string& patterns,
+                 const FarmOptions& options = {}) const {
     FarmWork work(grid, options);
     const ResultCache cache(out() / "cache");
     std::vector<JobIndex> jobs;
@@ -31,27 +32,22 @@ class ChunkTest : public FarmTest {
 
 TEST_F(ChunkTest, MakesTheVeryResultsThatTheFarmWouldMake) {
   const Grid small = two();
-  for (const char* part : {"*render:*reference*", "*compare*:*profile"}) {
-    const ChunkSummary done = exec_chunk(chunk(small, part), 1);
+  for (const char* part : {kPictures, kTheRest}) {
+    const fs::path file = chunk(small, part);
+    const ChunkSummary done = exec_chunk(file, 1), again = exec_chunk(file, 2);
     EXPECT_EQ(done.jobs, 4u) << part;
     EXPECT_EQ(done.done, 4u) << part;
     EXPECT_EQ(done.work.made, 4u) << part;
+    EXPECT_EQ(again.done, 4u) << part;
+    EXPECT_EQ(again.work.made, 0u) << part;
   }
   const FarmSummary farm = run_farm(small, out(), {});
   EXPECT_EQ(farm.work.made, 0u) << "everything was there, under the same keys";
   EXPECT_EQ(farm.pass, 2u);
 }
 
-TEST_F(ChunkTest, DoesWhatIsThereNoSecondTime) {
-  const fs::path file = chunk(two(), "*");
-  EXPECT_EQ(exec_chunk(file, 2).work.made, 8u);
-  const ChunkSummary again = exec_chunk(file, 2);
-  EXPECT_EQ(again.work.made, 0u);
-  EXPECT_EQ(again.done, 8u);
-}
-
 TEST_F(ChunkTest, LeavesAloneWhatHasNoInputs) {
-  const ChunkSummary done = exec_chunk(chunk(two(), "*compare*:*profile"), 1);
+  const ChunkSummary done = exec_chunk(chunk(two(), kTheRest), 1);
   EXPECT_EQ(done.jobs, 4u);
   EXPECT_EQ(done.done, 0u);
   EXPECT_EQ(done.failed, 0u) << "the next round has it";
@@ -62,21 +58,10 @@ TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
   FarmOptions options;
   options.attempts = 1;
   options.programs = {{"povray", failing_povray()}};
-  FarmWork work(small, options);
-  const ResultCache cache(out() / "cache");
-  std::vector<JobIndex> pictures, rest;
-  for (JobIndex job = 0; job < work.graph.size(); ++job)
-    (work.graph[job].kind == JobKind::kRender || work.graph[job].kind == JobKind::kReference
-         ? pictures
-         : rest)
-        .push_back(job);
-  const fs::path file = directory_.path() / "chunk.json";
-  records::write_record(file, chunk_record(work, cache, options, pictures));
-  ChunkSummary done = exec_chunk(file, 1);
+  ChunkSummary done = exec_chunk(chunk(small, kPictures, options), 1);
   EXPECT_EQ(done.done, 2u);
   EXPECT_EQ(done.failed, 1u);
-  records::write_record(file, chunk_record(work, cache, options, rest));
-  done = exec_chunk(file, 1);
+  done = exec_chunk(chunk(small, kTheRest, options), 1);
   EXPECT_EQ(done.done, 2u) << "one comparison, and a profile without POV-Ray";
 }
 
@@ -116,13 +101,8 @@ TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
   const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
   FarmOptions options;
   options.programs = {{"povray", failing_povray()}};
-  FarmWork work(small, options);
-  const ResultCache cache(out() / "cache");
-  std::vector<JobIndex> pictures;
-  for (JobIndex job = 0; job < work.graph.size(); ++job)
-    if (is_picture(work.graph[job].kind)) pictures.push_back(job);
-  const fs::path file = directory_.path() / "chunk.json";
-  const Json record = as_json(chunk_record(work, cache, options, pictures));
+  const fs::path file = chunk(small, kPictures, options);
+  const Json record = read_json(file);
   const auto exec = [&](const Json& plan) {
     fs::remove_all(out() / "cache");
     write_json(file, plan);
@@ -144,31 +124,6 @@ TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
               ElementsAre("POV-Ray: engine version: 3.7.0.10 here, 3.8.0 in the plan"));
   fs::remove(options.programs.at("povray"));
   EXPECT_THAT(exec(record), ElementsAre(testing::HasSubstr("is not a program")));
-}
-
-TEST_F(ChunkTest, ThatIsNoneIsRefused) {
-  const fs::path file = chunk(two(), "*");
-  Json record = read_json(file);
-  const auto refused = [&](const Json& changed) {
-    write_json(file, changed);
-    try {
-      exec_chunk(file, 1);
-      return std::string("done");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kInput);
-      return std::string(error.what());
-    }
-  };
-  Json other;
-  for (const char* key : {"cells", "engines", "limits", "cache", "libraries", "arithmetic"}) {
-    other = record;
-    other.erase(key);
-    EXPECT_THAT(refused(other),
-                testing::HasSubstr(std::string("chunk.json: ") + key + ": missing"));
-  }
-  other = record;
-  other["cells"][0]["scene"] = "<scene/>";
-  EXPECT_NE(refused(other), "done");
 }
 
 }  // namespace

@@ -93,16 +93,20 @@ TEST(Drafts, OfTheDeadGoAndThoseOfOthersStayUntilTheirSharedLockIsFree) {
   elsewhere.host = "elsewhere-0";
   elsewhere.boot[0] = elsewhere.boot[0] == '1' ? '2' : '1';
   const fs::path of_dead = put(dead, 999), of_other_locks = put(elsewhere, 999),
-                 of_shared_locks = put(elsewhere, locks.st_ino);
+                 of_shared_locks = put(elsewhere, locks.st_ino),
+                 of_living = put(self, locks.st_ino), old = path / "making" / "0123456789abcdef";
+  fs::create_directory(old);
   const fs::path foreign = path / "making" / "notes";
   fs::create_directory(foreign);
   const ResultCache other(path);
   const AbandonedDrafts found = other.remove_abandoned();
   EXPECT_FALSE(fs::exists(of_dead));
+  EXPECT_FALSE(fs::exists(old)) << "as earlier versions named them";
+  EXPECT_TRUE(fs::exists(of_living));
   EXPECT_TRUE(fs::exists(of_other_locks)) << "its maker may hold a lock that is not seen here";
   EXPECT_EQ(fs::exists(of_shared_locks), !other.lock_sharing().shared);
   EXPECT_TRUE(fs::exists(foreign)) << "no draft's name";
-  EXPECT_EQ(found.removed + found.others, 3u);
+  EXPECT_EQ(found.removed + found.others, 4u);
 }
 
 TEST(Drafts, OfAFarmWhoseFileOfLocksWasRemovedStay) {

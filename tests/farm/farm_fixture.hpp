@@ -30,20 +30,16 @@ class FarmTest : public testing::Test {
     return out() / "cells" / id / file;
   }
   Json cell_record(const std::string& id) const { return read_json(in_cell(id, "cell.json")); }
-  /// An executable shell script.
-  std::filesystem::path script(const std::string& name, const std::string& text) const {
-    const auto path = directory_.path() / name;
-    write_file(path, "#!/bin/sh\n" + text);
+  /// A program that answers as POV-Ray does, and fails at every picture.
+  std::filesystem::path failing_povray() const {
+    const auto path = directory_.path() / "povray";
+    write_file(path,
+               "#!/bin/sh\n"
+               "echo 'POV-Ray 3.7.0.10' >&2\n"
+               "case \"$*\" in *version*) exit 0;; esac\n"
+               "exit 3\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path;
-  }
-
-  /// A program that answers as POV-Ray does, and fails at every picture after what `words` do in a shell.
-  std::filesystem::path failing_povray(const std::string& words = "") const {
-    return script("povray",
-                  "echo 'POV-Ray 3.7.0.10' >&2\n"
-                  "case \"$*\" in *version*) exit 0;; esac\n" +
-                      words + "exit 3\n");
   }
 
   TemporaryDirectory directory_;

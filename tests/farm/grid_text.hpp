@@ -25,16 +25,17 @@ inline std::string scene_files() {
 inline const std::string kSceneFiles = scene_files();
 inline const std::string kScene = "<scene file=\"" + kSceneFiles + "head_on.xml\"/>";
 
-inline Grid grid_of(const std::string& body) {
+/// `attributes` are of the root, with a blank in front.
+inline Grid grid_of(const std::string& body, const std::string& attributes = "") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "g.xml";
-  write_file(path, "<grid version=\"1\">" + body + "</grid>");
+  write_file(path, "<grid version=\"1\"" + attributes + ">" + body + "</grid>");
   return read_grid(path);
 }
 
-inline std::string error_of(const std::string& body) {
+inline std::string error_of(const std::string& body, const std::string& attributes = "") {
   try {
-    grid_of(body);
+    grid_of(body, attributes);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kInput);
     return error.what();

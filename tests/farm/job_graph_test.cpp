@@ -11,10 +11,10 @@ TEST(JobFilter, PicksAsGoogleTestDoes) {
   const std::string name = "phong_rdf-n16/compare-blender";
   for (const char* patterns :
        {"", "*", "phong*", "nothing:phong*", "*/compare-*", "phong_rdf-n16/compare-blender",
-        "phong_rdf-n1?/*", "-*povray", "phong*:-*povray", "*****b*r", ":"})
-    EXPECT_TRUE(JobFilter(patterns).picks(name) || std::string(patterns) == ":") << patterns;
+        "phong_rdf-n1?/*", "-*povray", "phong*:-*povray", "*****b*r", "*blender*"})
+    EXPECT_TRUE(JobFilter(patterns).picks(name)) << patterns;
   for (const char* patterns : {"phong", "*povray", "-*blender", "phong*:-*blender",
-                               "-phong*:nothing", "phong_rdf-n?/*", "x*:y*", "-*"})
+                               "-phong*:nothing", "phong_rdf-n?/*", "x*:y*", "-*", ":"})
     EXPECT_FALSE(JobFilter(patterns).picks(name)) << patterns;
 }
 

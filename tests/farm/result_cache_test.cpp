@@ -90,18 +90,6 @@ TEST_F(ResultCacheTest, AFileOfAnotherAgeIsReadAndNotDoubted) {
   }
 }
 
-TEST_F(ResultCacheTest, ALookInsideFindsWhatTheAgeDoesNotTell) {
-  const ResultCache cache(path());
-  publish(cache, key_, "pixels");
-  const fs::path picture = cache.file(key_, "a.exr");
-  const auto age = fs::last_write_time(picture);
-  fs::permissions(picture, fs::perms::owner_all);
-  std::ofstream(picture) << "PIXELS";
-  fs::last_write_time(picture, age);
-  EXPECT_TRUE(cache.find(key_, ResultCache::Look::kQuick));
-  EXPECT_FALSE(cache.find(key_, ResultCache::Look::kThorough));
-}
-
 TEST_F(ResultCacheTest, BelievesNoRecordThatPointsElsewhere) {
   const ResultCache cache(path());
   publish(cache, key_, "pixels");
@@ -124,22 +112,11 @@ TEST_F(ResultCacheTest, BelievesNoRecordThatPointsElsewhere) {
   EXPECT_FALSE(cache.find(key_)) << "not as it was sealed";
   write_json(cache.file(key_, kManifestFile), sealed(altered));
   EXPECT_TRUE(cache.find(key_));
-  for (const char* text : {"", "{", "[]", "{\"schemaVersion\":1,\"kind\":\"result\"}"}) {
+  for (const std::string& text : std::vector<std::string>{
+           "", "{", "[]", "{\"schemaVersion\":1,\"kind\":\"result\"}", std::string(100000, '[')}) {
     write_file(cache.file(key_, kManifestFile), text);
-    EXPECT_FALSE(cache.find(key_)) << text;
+    EXPECT_FALSE(cache.find(key_)) << text.substr(0, 100);
   }
-}
-
-TEST_F(ResultCacheTest, ADraftThatIsNotPublishedLeavesNothing) {
-  const ResultCache cache(path());
-  {
-    ResultDraft draft = cache.draft();
-    write_file(draft.file("a.exr"), "x");
-    EXPECT_EQ(drafts(), 1u);
-    ResultDraft moved = std::move(draft);
-    EXPECT_EQ(drafts(), 1u);
-  }
-  EXPECT_EQ(drafts(), 0u);
 }
 
 TEST_F(ResultCacheTest, PublishesNothingThatHasLostAFile) {
@@ -152,14 +129,6 @@ TEST_F(ResultCacheTest, PublishesNothingThatHasLostAFile) {
     EXPECT_THROW(cache.publish(draft, key_, a_result()), Error) << lost;
     EXPECT_FALSE(cache.has(key_)) << lost;
   }
-}
-
-TEST_F(ResultCacheTest, TakesAwayDraftsOfTheDeadAndLeavesThoseOfTheLiving) {
-  const ResultCache living(path()), other(path());
-  const ResultDraft draft = living.draft();
-  fs::create_directory(path() / "making" / "0123456789abcdef");
-  EXPECT_EQ(other.remove_abandoned().removed, 1u);
-  EXPECT_TRUE(fs::exists(draft.directory()));
 }
 
 TEST_F(ResultCacheTest, AClaimHoldsOthersOffUntilItEnds) {
@@ -193,17 +162,6 @@ TEST_F(ResultCacheTest, KeepsAFailureUntilItIsForgotten) {
   cache.forget_failure(key_);
   EXPECT_FALSE(cache.failure(key_));
   cache.forget_failure(other_);
-}
-
-TEST_F(ResultCacheTest, IsMadeInNoDirectoryOfAnotherPurposeAndReadsNoOtherLayout) {
-  fs::create_directory(path());
-  write_file(path() / "thesis.tex", "x");
-  EXPECT_THROW(ResultCache{path()}, Error);
-  EXPECT_FALSE(fs::exists(path() / "results"));
-  fs::remove(path() / "thesis.tex");
-  EXPECT_NO_THROW(ResultCache{path()});
-  write_file(path() / "lobelia-cache", "2\n");
-  EXPECT_THROW(ResultCache{path()}, Error);
 }
 
 TEST(ResultKey, ChangesWithEveryPartAndWithTheirBorders) {

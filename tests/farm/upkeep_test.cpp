@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-
 #include "core/error.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
@@ -20,31 +18,7 @@ class UpkeepTest : public FarmTest {
  protected:
   UpkeepTest() { run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {}); }
   fs::path cache() const { return out() / "cache"; }
-  /// Other bytes in place of a file's, with the time of change that it had.
-  static void corrupt(const fs::path& file) {
-    const auto age = fs::last_write_time(file);
-    const std::string whole = read_file(file, 1 << 24);
-    fs::permissions(file, fs::perms::owner_all);
-    std::ofstream(file, std::ios::binary) << std::string(whole.size(), '!');
-    fs::last_write_time(file, age);
-  }
 };
-
-TEST_F(UpkeepTest, VerifyFindsWhatAFarmBelievesAndTheNextFarmMakesOnlyThatAgain) {
-  EXPECT_TRUE(verify_cache(cache(), false, {}).damaged.empty());
-  corrupt(in_cell("n16", "lobelia.exr"));
-  EXPECT_EQ(run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {}).work.made, 0u);
-  for (const bool remove : {false, true}) {
-    const VerifyReport report = verify_cache(cache(), remove, {});
-    EXPECT_EQ(report.results, 8u);
-    ASSERT_EQ(report.damaged.size(), 1u);
-    EXPECT_THAT(report.damaged[0], HasSubstr("lobelia.exr has another content"));
-  }
-  EXPECT_EQ(verify_cache(cache(), false, {}).results, 7u);
-  EXPECT_EQ(run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {}).work.made, 1u)
-      << "the same bytes again, so that what was made of them still holds";
-  EXPECT_TRUE(verify_cache(cache(), false, {}).damaged.empty());
-}
 
 TEST_F(UpkeepTest, VerifyOpensWhatItsHashSaysIsWhole) {
   // As a program that publishes rubbish would leave it.
@@ -89,30 +63,6 @@ TEST_F(UpkeepTest, AFarmUsesWhatItTouchesSoThatGarbageIsSomethingElse) {
   for (const auto& key : results.list())
     used += fs::last_write_time(results.result_directory(key)) != old;
   EXPECT_EQ(used, 4u);
-}
-
-TEST_F(UpkeepTest, TakesNothingAwayUnderAFarmThatIsAtWork) {
-  const ResultCache results(cache());
-  const auto in_use = results.try_use(true);
-  EXPECT_THROW(collect_garbage(cache(), 0), Error);
-  EXPECT_EQ(results.list().size(), 8u);
-  EXPECT_EQ(as_json(farm_status(out())).at("atWork"), true);
-}
-
-TEST_F(UpkeepTest, CleanTakesAwayWhatIsNotOfTheGridAndNothingElse) {
-  run_farm(grid("16"), out(), {});
-  write_file(out() / "index.html", "a gallery");
-  CleanReport report = clean_farm(out(), false);
-  EXPECT_EQ(report.cells, 1u);
-  EXPECT_TRUE(fs::exists(in_cell("n16", "cell.json")));
-  EXPECT_FALSE(fs::exists(in_cell("n32", "")));
-  report = clean_farm(out(), true);
-  EXPECT_FALSE(fs::exists(out() / "cells"));
-  EXPECT_TRUE(fs::exists(out() / "index.html"));
-  EXPECT_EQ(ResultCache(cache()).list().size(), 9u)
-      << "two cells with the formulas, and a profile of one without";
-  EXPECT_THROW(clean_farm(out(), false), Error) << "it is no farm's directory any more";
-  EXPECT_THROW(clean_farm(directory_.path(), true), Error);
 }
 
 TEST_F(UpkeepTest, CleanTakesAwayWhatFailedJobsLeft) {

@@ -90,33 +90,5 @@ TEST(GridLayout, cells_off_the_axes_and_cells_on_a_taken_place_are_not_lost) {
   EXPECT_EQ(rest[1]->id, "off");
 }
 
-TEST(GridLayout, a_grid_with_holes_keeps_every_cell_in_its_place) {
-  ShownFarm farm = farm_of({3, 2, 2, 2});
-  const std::vector<std::vector<int>> there = {{0, 0, 0, 0}, {0, 1, 1, 0}, {2, 0, 1, 1}};
-  for (const auto& at : there) {
-    farm.cells.push_back({"c" + std::to_string(farm.cells.size()), CellStatus::kPass, at, ""});
-    farm.cell_at.emplace(at, farm.cells.size() - 1);
-  }
-  const GridLayout layout = lay_out(farm);
-  std::set<const CellEntry*> shown;
-  std::size_t empty = 0;
-  for (const auto& section : layout.sections)
-    for (int row = 0; row < axis_size(farm, layout.rows); ++row)
-      for (int group = 0; group < axis_size(farm, layout.groups); ++group)
-        for (int column = 0; column < axis_size(farm, layout.columns); ++column) {
-          const auto at = layout.position(section, row, group, column);
-          const CellEntry* cell = farm.find_cell(at);
-          if (!cell) {
-            ++empty;
-            continue;
-          }
-          EXPECT_EQ(cell->at, at);
-          shown.insert(cell);
-        }
-  EXPECT_EQ(shown.size(), there.size());
-  EXPECT_EQ(empty, 3u * 2 * 2 * 2 - there.size());
-  EXPECT_TRUE(cells_without_place(farm).empty());
-}
-
 }  // namespace
 }  // namespace lobelia::gallery

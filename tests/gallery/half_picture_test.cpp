@@ -9,24 +9,10 @@
 #include <random>
 #include <string>
 
+#include "tests/gallery/site.hpp"
+
 namespace lobelia::gallery {
 namespace {
-
-std::string from_base64(const std::string& text) {
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const auto at = digits.find(c);
-    if (at == digits.npos) break;
-    bits = bits << 6 | static_cast<std::uint32_t>(at);
-    if ((count += 6) < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 0xff);
-  }
-  return bytes;
-}
 
 /// The reader of gallery/web/src/half_picture.ts, written again.
 std::vector<double> decoded(const records::PackedPicture& picture) {

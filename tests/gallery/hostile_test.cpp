@@ -1,4 +1,5 @@
-// Records are input like any other: a gallery is made of a directory that somebody sent.
+// Records are input like any other: a gallery is made of a directory that somebody sent. Grids vary scenes by the names of
+// files, which may be anything.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,7 +7,9 @@
 
 #include "core/constants.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "gallery/gallery.hpp"
+#include "gallery/publication.hpp"
 #include "records/comparison.hpp"
 #include "records/profile.hpp"
 #include "records/render.hpp"
@@ -95,38 +98,24 @@ TEST(HostileRecords, an_id_that_leads_elsewhere_is_refused_by_name) {
 }
 
 TEST(HostileRecords, a_file_name_that_leads_elsewhere_makes_the_cell_unreadable) {
-  const std::vector<std::pair<std::string, std::string& (*)(records::Cell&)>> places = {
-      {"images[0].png", [](records::Cell & cell) -> auto& {return cell.images[0].png;
-}
-}  // namespace
-, {"images[0].exr", [](records::Cell& cell) -> auto& {return cell.images[0].exr;
-}  // namespace lobelia::gallery
-}
-, {"images[0].record", [](records::Cell& cell) -> auto& {return cell.images[0].record;
-}
-}
-, {"images[0].engine", [](records::Cell& cell) -> auto& {return cell.images[0].engine;
-}
-}
-, {"comparisons[0].png", [](records::Cell& cell) -> auto& {return cell.comparisons[0].png;
-}
-}
-, {
-  "comparisons[0].record", [](records::Cell & cell) -> auto& { return cell.comparisons[0].record; }
-}
-}
-;
-for (const auto& [place, name] : places) {
-  const FakeFarm farm;
-  const std::string elsewhere = "../" + FakeFarm::kDiffers + "/lobelia.png";
-  farm.change<records::Cell>(FakeFarm::kPass, "cell.json",
-                             [&](records::Cell& cell) { name(cell) = elsewhere; });
-  write_gallery(farm.directory());
-  const Site site(farm.directory());
-  EXPECT_THAT(site.bad_links(), IsEmpty());
-  EXPECT_THAT(text_of(site.cell(FakeFarm::kPass)),
-              HasSubstr("cell.json: " + place + ": '" + elsewhere + "' is no plain name"));
-}
+  const std::vector<std::pair<std::string, std::string* (*)(records::Cell&)>> places = {
+      {"images[0].png", [](records::Cell& cell) { return &cell.images[0].png; }},
+      {"images[0].exr", [](records::Cell& cell) { return &cell.images[0].exr; }},
+      {"images[0].record", [](records::Cell& cell) { return &cell.images[0].record; }},
+      {"images[0].engine", [](records::Cell& cell) { return &cell.images[0].engine; }},
+      {"comparisons[0].png", [](records::Cell& cell) { return &cell.comparisons[0].png; }},
+      {"comparisons[0].record", [](records::Cell& cell) { return &cell.comparisons[0].record; }}};
+  for (const auto& [place, name] : places) {
+    const FakeFarm farm;
+    const std::string elsewhere = "../" + FakeFarm::kDiffers + "/lobelia.png";
+    farm.change<records::Cell>(FakeFarm::kPass, "cell.json",
+                               [&](records::Cell& cell) { *name(cell) = elsewhere; });
+    write_gallery(farm.directory());
+    const Site site(farm.directory());
+    EXPECT_THAT(site.bad_links(), IsEmpty());
+    EXPECT_THAT(text_of(site.cell(FakeFarm::kPass)),
+                HasSubstr("cell.json: " + place + ": '" + elsewhere + "' is no plain name"));
+  }
 }
 
 TEST(HostileRecords, odd_but_plain_ids_are_encoded_in_links) {
@@ -227,23 +216,63 @@ TEST(HostileRecords, curves_of_different_lengths_make_the_profile_unreadable) {
               HasSubstr("profile.json: curve: its columns are not equally long"));
 }
 
-TEST(HostileRecords, a_link_out_of_the_run_is_not_published) {
-  const FakeFarm farm;
-  const TemporaryDirectory elsewhere;
-  write_file(elsewhere.path() / "secret", std::string_view("secret"));
-  const auto log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
-  std::filesystem::remove(log);
-  std::filesystem::create_symlink(elsewhere.path() / "secret", log);
-  farm.seal(FakeFarm::kPass);
-  GalleryOptions options;
-  options.site = elsewhere.path() / "site";
-  EXPECT_THROW(write_gallery(farm.directory(), options), Error);
-  EXPECT_FALSE(std::filesystem::exists(options.site / "cells" / FakeFarm::kPass / "povray.log"));
-  // Within it, it may.
-  std::filesystem::remove(log);
-  std::filesystem::create_symlink("lobelia.log", log);
-  farm.seal(FakeFarm::kPass);
-  EXPECT_NO_THROW(write_gallery(farm.directory(), options));
+const std::vector<std::string> kNames = {"日本語.xml",
+                                         "中国語.xml",
+                                         "\u202Egnp.exe",
+                                         "a \u2066b\u2069",
+                                         "it's \"quoted\"",
+                                         "<b>&amp;",
+                                         "50%#1?x=y",
+                                         "two words",
+                                         "line\nbreak",
+                                         std::string(250, 'x'),
+                                         std::string(249, 'x') + "y"};
+
+TEST(PublishedNames, lead_to_a_page_each_and_are_text) {
+  FakeFarm farm;
+  records::Axis& axis = farm.farm().axes.emplace_back();
+  axis.name = "scene \u202Eemos";
+  for (const std::string& name : kNames) axis.values.push_back({name, ""});
+  std::vector<std::string> ids;
+  for (const std::string& name : kNames) {
+    std::string id = name;
+    std::replace(id.begin(), id.end(), '\n', ' ');
+    ids.push_back(id);
+    farm.add_cell(id, "pass", {{"model", "phong_rdf"}, {"exponent", "16"}, {axis.name, name}});
+  }
+  farm.write();
+  const TemporaryDirectory place;
+  for (const char* out : {"site", "packed", "one.html"}) {
+    GalleryOptions options;
+    options.site = place.path() / out;
+    options.scrubbed = true;
+    options.metrics_only = options.packed.emplace(std::string(out) == "packed");
+    write_publication(farm.directory(), options);
+  }
+  const Site site(place.path() / "site");
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+  EXPECT_THAT(site.active_content(), IsEmpty());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    EXPECT_THAT(text_of(site.cell(ids[i]).select_node("//h1").node()),
+                HasSubstr(printable_path(kNames[i])));
+}
+
+TEST(PublishedNames, change_nothing_beside_them) {
+  FakeFarm farm;
+  records::Axis& axis = farm.farm().axes.emplace_back();
+  axis.name = "scene";
+  axis.values = {{"\u202Egnp.exe", ""}, {"\u05d0\u05d1", ""}};
+  for (const records::AxisValue& value : axis.values)
+    farm.add_cell(value.value, "pass",
+                  {{"model", "phong_rdf"}, {"exponent", "16"}, {"scene", value.value}});
+  farm.write();
+  write_gallery(farm.directory(), {});
+  const Site site(farm.directory());
+  const auto title = [&](const std::string& id) {
+    return text_of(site.cell(id).select_node("//h1").node());
+  };
+  EXPECT_THAT(title("\u202Egnp.exe"), HasSubstr("\\u202egnp.exe"));
+  EXPECT_THAT(title("\u05d0\u05d1"), HasSubstr("\u2068\u05d0\u05d1\u2069"));
 }
 
 }  // namespace

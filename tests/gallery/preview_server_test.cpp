@@ -221,6 +221,35 @@ TEST_F(PreviewServer, GivesPartsOfAFile) {
   EXPECT_EQ(head.body, "");
 }
 
+TEST_F(PreviewServer, GivesFilesOfTheSiteWithTheirTypesAndPolicyAndNoOthers) {
+  for (const char* name : {"gallery.js", "gallery.css", "gallery.json", "a.png", "a.exr"})
+    write_file(path("site") / name, "x");
+  for (const auto& [target, type] : {std::pair("/", "text/html"),
+                                     {"/index.html", "text/html"},
+                                     {"/cells/a/", "text/html"},
+                                     {"/gallery.js", "text/javascript"},
+                                     {"/gallery.css", "text/css"},
+                                     {"/gallery.json", "application/json"},
+                                     {"/a.png", "image/png"},
+                                     {"/a.exr", "image/x-exr"}}) {
+    const Answer answer = get(target);
+    EXPECT_EQ(answer.status(), 200) << target;
+    EXPECT_THAT(answer.head, HasSubstr(std::string("\r\nContent-Type: ") + type)) << target;
+    EXPECT_THAT(answer.head, HasSubstr("\r\nContent-Security-Policy: default-src 'none'"));
+    EXPECT_THAT(answer.head, HasSubstr("\r\nX-Content-Type-Options: nosniff\r\n"));
+    EXPECT_NE(answer.body, "") << target;
+  }
+  write_file(path("site/.hidden"), "secret");
+  fs::create_symlink("../secret.txt", path("site/leak.txt"));
+  for (const char* target :
+       {"/.hidden", "/leak.txt", "/../secret.txt", "/cells/../../secret.txt",
+        "/cells\\..\\..\\secret.txt", "//etc/passwd", "/%00", "/cells/", "/no"}) {
+    const Answer answer = get(target);
+    EXPECT_THAT(answer.status(), testing::AnyOf(400, 404)) << target;
+    EXPECT_THAT(answer.body, Not(HasSubstr("secret"))) << target;
+  }
+}
+
 TEST_F(PreviewServer, RefusesOddRequestsAndGoesOn) {
   struct Case {
     std::string request;
@@ -248,6 +277,8 @@ TEST_F(PreviewServer, RefusesOddRequestsAndGoesOn) {
            {line("GET /", "Content-Length: 999999999999\r\n"), 413},
            {line("GET /", "Content-Length: 0\r\n"), 200},
            {line("POST /"), 405},
+           {line("PUT /"), 405},
+           {line("DELETE /"), 405},
            {line("OPTIONS *"), 405},
            {"GET / HTTP/1.1\r\n\r\n", 400},
            {"GET /\r\n", 400},
@@ -373,7 +404,8 @@ TEST_F(PreviewServer, AnswersOthersOnlyIfAskedToAndThenWarns) {
   EXPECT_EQ(asked_for("192.0.2.7:8080"), 200);
   EXPECT_EQ(asked_for(host_name() + ":80"), 200);
   EXPECT_EQ(asked_for("localhost"), 200);
-  for (const char* name : {"rebound.example", "1.2.3.4.example", "1.2.3", "1.2.3.4:", ""})
+  for (const char* name :
+       {"rebound.example", "localhost.example", "1.2.3.4.example", "1.2.3", "1.2.3.4:", ""})
     EXPECT_EQ(asked_for(name), 403) << name;
   EXPECT_THAT(read_file(path("stderr"), 1 << 10), HasSubstr("without a password"));
 }

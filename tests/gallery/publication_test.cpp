@@ -31,15 +31,6 @@ const std::string kPlace = "/srv/telltale place/of_me", kHost = "telltale-node7"
 
 std::string content(const fs::path& file) { return read_file(file, std::size_t{1} << 28); }
 
-/// By path below the directory.
-std::map<std::string, std::string> files_below(const fs::path& directory) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(directory))
-    if (entry.is_regular_file())
-      all[entry.path().lexically_relative(directory).string()] = content(entry.path());
-  return all;
-}
-
 std::string inflated(std::string_view bytes, int window_bits) {
   z_stream stream{};
   EXPECT_EQ(::inflateInit2(&stream, window_bits), Z_OK);
@@ -52,20 +43,6 @@ std::string inflated(std::string_view bytes, int window_bits) {
   text.resize(result == Z_STREAM_END ? stream.total_out : 0);
   ::inflateEnd(&stream);
   return text;
-}
-
-std::string from_base64(std::string_view text) {
-  std::string bytes;
-  std::uint32_t bits = 0, count = 0;
-  for (const char c : text) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t digit = kDigits.find(c);
-    if (digit == kDigits.npos) break;
-    bits = bits << 6 | std::uint32_t(digit);
-    if ((count += 6) >= 8) bytes += char(bits >> (count -= 8) & 0xff);
-  }
-  return bytes;
 }
 
 /// The text, and what every long run of base64 in it holds, inflated if it is deflated.
@@ -116,9 +93,6 @@ std::map<std::string, std::string> unzipped(std::string_view zip,
   }
   return files;
 }
-
-void require_nothing_told(const std::map<std::string, std::string>& files,
-                          const class TelltaleFarm& farm);
 
 /// A run that tells of its machine wherever a record or a log can.
 class TelltaleFarm : public FakeFarm {
@@ -318,8 +292,8 @@ TEST(Publication, in_a_zip_has_plain_names_whatever_the_zip_is_called) {
   }
 }
 
-TEST(Publication, that_fails_leaves_nothing_behind) {
-  FakeFarm farm;
+TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behind) {
+  const FakeFarm farm;
   const TemporaryDirectory place, elsewhere;
   const fs::path log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
   fs::remove(log);
@@ -333,6 +307,13 @@ TEST(Publication, that_fails_leaves_nothing_behind) {
     EXPECT_THROW(write_publication(farm.directory(), options), Error) << out;
   }
   EXPECT_TRUE(fs::is_empty(place.path()));
+  // Within the run, it may.
+  fs::remove(log);
+  fs::create_symlink("lobelia.log", log);
+  farm.seal(FakeFarm::kPass);
+  GalleryOptions options;
+  options.site = place.path() / "site";
+  EXPECT_NO_THROW(write_publication(farm.directory(), options));
 }
 
 TEST(Publication, in_one_file_is_small_or_one_cell) {

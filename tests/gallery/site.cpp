@@ -1,5 +1,6 @@
 #include "tests/gallery/site.hpp"
 
+#include <cstdint>
 #include <stdexcept>
 
 #include "core/files.hpp"
@@ -105,6 +106,29 @@ std::string text_of(const pugi::xml_node& node) {
     text += child.type() == pugi::node_pcdata ? child.value() : text_of(child);
   }
   return text;
+}
+
+std::map<std::string, std::string> files_below(const fs::path& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(directory))
+    if (entry.is_regular_file())
+      files[entry.path().lexically_relative(directory).string()] =
+          read_file(entry.path(), std::uint64_t{1} << 28);
+  return files;
+}
+
+std::string from_base64(std::string_view text) {
+  std::string bytes;
+  std::uint32_t bits = 0, count = 0;
+  for (const char c : text) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t digit = kDigits.find(c);
+    if (digit == kDigits.npos) break;
+    bits = bits << 6 | std::uint32_t(digit);
+    if ((count += 6) >= 8) bytes += char(bits >> (count -= 8) & 0xff);
+  }
+  return bytes;
 }
 
 }  // namespace lobelia::gallery

@@ -5,6 +5,7 @@
 #include <map>
 #include <pugixml.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lobelia::gallery {
@@ -29,5 +30,11 @@ class Site {
 
 /// All text below a node, as a person reads it.
 std::string text_of(const pugi::xml_node& node);
+
+/// What is in the files of a directory and below, by their paths in it.
+std::map<std::string, std::string> files_below(const std::filesystem::path& directory);
+
+/// Up to the first character that is no digit of base64.
+std::string from_base64(std::string_view text);
 
 }  // namespace lobelia::gallery

@@ -21,7 +21,7 @@ using Places = std::set<std::string>;
 const std::vector<std::pair<std::string, std::regex>>& kinds() {
   static const std::vector<std::pair<std::string, std::regex>> all{
       {"remove", std::regex(R"re(\b(remove_all|unlink|unlinkat|rmdir|rmtree)\s*\(|)re"
-                            R"re((fs|filesystem)::remove\s*\()re")},
+                            R"re((fs|filesystem)::remove\s*\(|std::remove\s*\([^,)]*\))re")},
       {"rename", std::regex(R"re((::|fs\.|os\.)(rename|renameat2?|link|linkat|symlink|symlinkat|)re"
                             R"re(create_symlink|create_hard_link)\s*\()re")},
       {"write",
@@ -86,6 +86,10 @@ TEST(SecurityPage, lists_every_place_that_changes_files_or_starts_programs_and_n
   EXPECT_THAT(only_in(source, page), IsEmpty()) << "in the source, not in SECURITY.md";
   EXPECT_THAT(only_in(page, source), IsEmpty()) << "in SECURITY.md, not in the source";
   EXPECT_GT(page.size(), 10u);
+  for (const std::string& one : source)
+    if (one.ends_with(": remove")) {
+      EXPECT_EQ(one, "core/removal.cpp: remove");
+    }
 }
 
 TEST(SecurityPage, every_kind_of_place_is_found) {
@@ -104,6 +108,18 @@ TEST(SecurityPage, every_kind_of_place_is_found) {
                              "| `core/a.cpp` | remove, write | names of ours alone |\n"
                              "| `core/b.cpp` | remove | |\n"),
               ElementsAre("core/a.cpp: remove", "core/a.cpp: write"));
+}
+
+TEST(SecurityPage, every_way_to_remove_is_found) {
+  Scratch tree;
+  write(tree / "core/a.cpp", "removal.remove(name);\nstd::remove(a, b, c);\nbe_unlink(x);\n");
+  ASSERT_THAT(places_in_source(tree.path()), IsEmpty());
+  int file = 0;
+  for (const char* call : {"fs::remove_all(a);", "std::filesystem::remove_all (a);", "::unlink(a);",
+                           "::rmdir(a);", "::unlinkat(f, a, 0);", "fs::remove(a, error);",
+                           "std::filesystem::remove(a);", "std::remove(a);"})
+    write(tree / ("farm/" + std::to_string(file++) + ".cpp"), call);
+  EXPECT_EQ(places_in_source(tree.path()).size(), 8u);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // fakes of dpkg-query, apt-get, sudo and id that only write down how they were called.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <sstream>
 
@@ -70,12 +69,10 @@ class Setup : public ::testing::Test {
   /// Runs the script; its output, both streams together, is in `said`.
   int run(const std::string& purposes) {
     fs::remove(calls_file());
-    const std::string command = "PATH='" + bin().string() + "' bash '" + script().string() + "' " +
-                                purposes + " > '" + (scratch_ / "said").string() +
-                                "' 2>&1 < /dev/null";
-    const int status = std::system(command.c_str());
-    said = read(scratch_ / "said");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const Ran ran = house::run("PATH=" + quoted(bin()) + " bash " + quoted(script()) + " " +
+                               purposes + " < /dev/null");
+    said = ran.output;
+    return ran.exit_code;
   }
   /// How apt-get was called since, without the options that do not matter here.
   std::vector<std::string> apt_calls() {

@@ -184,16 +184,6 @@ Problems stderr_by_hand(const fs::path& root) {
   });
 }
 
-/// Whatever removes a file or a directory, but in the one place that looks where it is and whose.
-Problems loose_removals(const fs::path& root) {
-  static const std::regex pattern(
-      "\\bremove_all\\s*\\(|\\bunlink(at)?\\s*\\(|\\brmdir\\s*\\(|"
-      "\\b(fs|filesystem)::remove\\s*\\(|\\bstd::remove\\s*\\(\\s*[^,)]*\\)");
-  return lines_with(root, pattern, [](const fs::path& file) {
-    return is_cpp(file) && file != "core/removal.cpp" && *file.begin() != "tests";
-  });
-}
-
 /// Keys of JSON outside of records/: by the library, in the text of a string, or in a table.
 Problems loose_keys(const fs::path& root) {
   static const std::regex pattern(R"re(#\s*include\s*<nlohmann/|\\"[A-Za-z_]+\\"\s*:|\bdefine<)re");
@@ -301,22 +291,6 @@ TEST(Files, that_are_longer_are_found) {
   write(tree / "gallery/web/src/b.ts", text + text);
   EXPECT_THAT(long_files(tree.path()),
               ElementsAre("core/b.cpp: 501 lines", "gallery/web/src/b.ts: 1000 lines"));
-}
-
-TEST(Words, nothing_is_removed_but_by_core_removal) {
-  EXPECT_THAT(loose_removals(kRoot), IsEmpty());
-}
-
-TEST(Words, every_way_to_remove_is_found) {
-  Scratch tree;
-  write(tree / "core/removal.cpp", "::unlinkat(fd, name, 0);\n");
-  write(tree / "tests/a.cpp", "fs::remove_all(path);\n");
-  write(tree / "farm/a.cpp", "removal.remove(name);\nstd::remove(a, b, c);\nbe_unlink(x);\n");
-  ASSERT_THAT(loose_removals(tree.path()), IsEmpty());
-  write(tree / "farm/b.cpp",
-        "fs::remove_all(a);\nstd::filesystem::remove_all (a);\n::unlink(a);\n::unlinkat(f, a, 0);\n"
-        "::rmdir(a);\nfs::remove(a, error);\nstd::filesystem::remove(a);\nstd::remove(a);\n");
-  EXPECT_EQ(loose_removals(tree.path()).size(), 8u);
 }
 
 TEST(Words, no_file_names_a_path_of_a_developers_machine) {

@@ -9,8 +9,6 @@ namespace packages {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 const std::string kSource = LOBELIA_SOURCE_DIR;
 const std::string kLibraries =

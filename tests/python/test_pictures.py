@@ -347,20 +347,6 @@ def test_every_fault_of_a_scene_is_a_line():
     assert all(line.startswith("scene:1:") for line in raised.value.lines)
 
 
-def test_a_profile_with_its_scene_agrees_with_the_formula(scene):
-    image = lobelia.render(scene)
-    one = lobelia.profile(image, scene=scene, light=0)
-    assert one.images["a"].half_width_degrees == pytest.approx(
-        one.images["analytic"].half_width_degrees, rel=1e-4
-    )
-    # cos^64 falls to a half at acos(0.5^(1/64)); the measured curve is of the mean over its pixels
-    assert one.images["a"].half_width_degrees == pytest.approx(
-        np.degrees(np.arccos(0.5 ** (1 / 64))), rel=1e-2
-    )
-    many = lobelia.profile(image, image, scene=scene)
-    assert many.kind == "profiles" and len(many.profiles) == 1
-
-
 def test_a_profile_without_a_scene_finds_a_gaussian():
     y, x = np.mgrid[0:80, 0:100]
     spot = 3 * np.exp(-((x + 0.5 - 40) ** 2 + (y + 0.5 - 30) ** 2) / (2 * 6.0**2))

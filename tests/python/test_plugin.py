@@ -42,7 +42,7 @@ def test_update_writes_the_reference_which_then_passes(suite):
     assert not (suite.path / "lobelia-report").exists()
 
 
-def test_a_failure_has_its_reason_and_a_page(suite):
+def test_a_failure_has_its_reason_and_a_page_where_it_is_wanted(suite):
     suite(1, "--lobelia-update")
     before = (suite.path / "references/highlight.exr").read_bytes()
     result = suite(2)
@@ -53,10 +53,6 @@ def test_a_failure_has_its_reason_and_a_page(suite):
     assert "test_it.py::test_highlight" in text
     assert text.count("data:image/png;base64,") == 3
     assert (suite.path / "references/highlight.exr").read_bytes() == before
-
-
-def test_the_page_goes_where_it_is_wanted(suite):
-    suite(1, "--lobelia-update")
     suite(2, "--lobelia-report", "out/pages").assert_outcomes(failed=1)
     assert len(list((suite.path / "out/pages").iterdir())) == 1
 

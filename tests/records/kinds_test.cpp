@@ -254,18 +254,5 @@ TEST(Kinds, GiveEachStructOneName) {
     EXPECT_TRUE(names.emplace(type->name(), type).second) << type->name();
 }
 
-TEST(Kinds, HavePagesThatLeadToEveryPart) {
-  for (const Kind& kind : kinds()) {
-    const std::string page = reference_page(kind);
-    for (std::size_t at = page.find("](#"); at != page.npos; at = page.find("](#", at + 1)) {
-      const std::string anchor = page.substr(at + 3, page.find(')', at) - at - 3);
-      std::string lower = page;
-      std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-      EXPECT_NE(lower.find("\n## " + anchor + "\n"), page.npos)
-          << kind.type().kind() << " " << anchor;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace lobelia::records

@@ -2,12 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/render.hpp"
-#include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/ourselves.hpp"
 #include "tests/reference_scenes/render_all.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
@@ -15,8 +11,6 @@
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// What the engine's number format and precision leave, and no more.
 struct Tolerance {
@@ -42,14 +36,11 @@ class Agreement : public testing::TestWithParam<std::string> {
   }
 
   void expect_agreement(const std::vector<NamedScene>& named, int outliers = kAllowedOutliers) {
-    expect_agreement(named, {}, tolerance_of(GetParam()), outliers);
-  }
-  void expect_agreement(const std::vector<NamedScene>& named, const ReferenceOptions& options,
-                        Tolerance tolerance, int outliers) {
+    const Tolerance tolerance = tolerance_of(GetParam());
     std::vector<Scene> scenes;
     for (const NamedScene& one : named) scenes.push_back(one.scene);
     std::size_t results = 0;
-    render_all(*engine_, scenes, options, [&](std::size_t index, ReferenceResult result) {
+    render_all(*engine_, scenes, {}, [&](std::size_t index, ReferenceResult result) {
       ++results;
       SCOPED_TRACE(named[index].name);
       ASSERT_EQ(result.error, "");
@@ -86,23 +77,6 @@ class Agreement : public testing::TestWithParam<std::string> {
 
   std::unique_ptr<Engine> engine_;
 };
-
-/// Of engines with two number formats.
-class FinerAgreement : public Agreement {};
-
-TEST_P(Agreement, OfEveryModelAndNormalisation) {
-  std::vector<NamedScene> scenes;
-  for (const ModelInfo& model : models())
-    for (const Normalised& lobe : kNormalisations)
-      for (const double exponent : {16.0, 1024.0}) {
-        const HighlightChoice choice{model.name, lobe.lobe, lobe.normalisation, exponent};
-        const std::string name =
-            fmt::format("{} {} {} n={}", model.name, lobe.lobe, lobe.normalisation, exponent);
-        scenes.push_back({name + " at 45 degrees", sphere_scene(choice, {directional_at(45)}, 64)});
-        scenes.push_back({name + " by a point light", sphere_scene(choice, {point_light()}, 64)});
-      }
-  expect_agreement(scenes);
-}
 
 TEST_P(Agreement, OfEveryModelWithEveryLobe) {
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
@@ -166,16 +140,6 @@ TEST_P(Agreement, OfSchlicksFresnelFactorWhereItMattersMost) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, OfGrazingLightAndOfLightFromBehind) {
-  std::vector<NamedScene> scenes;
-  for (const ModelInfo& model : models())
-    for (const double degrees : {0.0, 80.0, 120.0})
-      scenes.push_back(
-          {fmt::format("{} at {} degrees", model.name, degrees),
-           sphere_scene({model.name, "cosine", "exact", 16}, {directional_at(degrees)}, 64)});
-  expect_agreement(scenes);
-}
-
 TEST_P(Agreement, OfALobeWiderThanAHemisphere) {
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models())
@@ -183,21 +147,6 @@ TEST_P(Agreement, OfALobeWiderThanAHemisphere) {
       scenes.push_back(
           {fmt::format("{} n={}", model.name, exponent),
            sphere_scene({model.name, "cs16", "exact", exponent}, {directional_at(45)}, 64)});
-  expect_agreement(scenes);
-}
-
-TEST_P(Agreement, OfTwoColouredLightsWithAShadowOnAColouredBase) {
-  std::vector<NamedScene> scenes;
-  for (const ModelInfo& model : models())
-    scenes.push_back(
-        {std::string(model.name),
-         shadow_scene({model.name, "cosine", "exact", 50},
-                      {directional_at(30, {1, 0.5, 0.25}), point_light({2, 4, 8})}, 96)});
-  // Grey highlights, so that POV-Ray shades by itself.
-  Scene grey = scenes[0].scene;
-  grey.materials[0].specular_reflectance = {0.5, 0.5, 0.5};
-  grey.materials[1].highlight = highlight_of({"blinn_phong_rdf", "cosine", "exact", 20});
-  scenes.push_back({"grey", grey});
   expect_agreement(scenes);
 }
 
@@ -219,60 +168,6 @@ TEST_P(Agreement, WhateverTheUnitsOfTheScene) {
     scenes.push_back({fmt::format("size {}", size), scene});
   }
   expect_agreement(scenes);
-}
-
-TEST_P(Agreement, OfTheCanonicalScenes) {
-  std::vector<NamedScene> scenes;
-  for (const auto& file :
-       fs::directory_iterator(fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes" / "scenes")) {
-    if (file.path().extension() != ".xml") continue;
-    Scene scene = read_scene(file.path());
-    scene.film = {96, 96};
-    scenes.push_back({file.path().filename().string(), scene});
-  }
-  ASSERT_GE(scenes.size(), 6u);
-  expect_agreement(scenes);
-}
-
-TEST_P(Agreement, ShadedTheOtherWay) {
-  ReferenceOptions options;
-  std::vector<NamedScene> scenes;
-  const bool povray = GetParam() == "povray";
-  options.shading = povray ? Shading::kReimplemented : Shading::kNative;
-  for (const ModelInfo& model : models())
-    for (const double exponent : {16.0, 1024.0}) {
-      Scene scene =
-          shadow_scene({model.name, "cosine", "exact", exponent}, {directional_at(45)}, 64);
-      scene.materials[1].highlight.model = scene.materials[0].highlight.model;
-      scenes.push_back({fmt::format("{} n={}", model.name, exponent), scene});
-    }
-  std::erase_if(scenes, [&](const NamedScene& named) {
-    const std::string why = engine_->why_not(named.scene, options);
-    EXPECT_EQ(why.empty(), povray || info(named.scene.materials[0].highlight.model).angle ==
-                                         LobeAngle::kHalfVector)
-        << named.name << ": " << why;
-    return !why.empty();
-  });
-  ASSERT_GE(scenes.size(), 8u);
-  // Cycles' closure raises a float32 cosine to the power.
-  expect_agreement(scenes, options, povray ? tolerance_of("povray") : Tolerance{0, 2e-4},
-                   kAllowedOutliers);
-}
-
-TEST_P(FinerAgreement, OfTheOtherNumberFormat) {
-  ReferenceOptions options;
-  options.fine = true;
-  ASSERT_FALSE(engine_->info().fine.empty());
-  std::vector<NamedScene> scenes;
-  for (const ModelInfo& model : models()) {
-    scenes.push_back(
-        {std::string(model.name), shadow_scene({model.name, "cosine", "exact", 64},
-                                               {directional_at(45), point_light({2, 4, 8})}, 64)});
-    scenes.push_back({std::string(model.name) + " on the ground",
-                      ground_scene({model.name, "cs16", "exact", 64}, {directional_at(45)}, 64)});
-  }
-  // Ours is rounded to float32 too.
-  expect_agreement(scenes, options, {5e-7, 1e-7}, 3 + kCheckerOutliers);
 }
 
 TEST_P(Agreement, OfPlanesAndCheckersAndLampsThatShineWithACosine) {
@@ -382,19 +277,6 @@ TEST_P(Agreement, SceneWithoutLightIsBlack) {
   EXPECT_EQ(results, 1);
 }
 
-TEST_P(Agreement, WhatNoEngineShowsIsRefusedAndTheNextSceneIsRendered) {
-  std::vector<Scene> scenes(
-      2, sphere_scene({"modified_phong", "cosine", "exact", 8}, {directional_at(20)}, 16));
-  scenes[0].depth.glossy = 1;
-  std::vector<std::string> errors(2, "no result");
-  render_all(*engine_, scenes, {},
-             [&](std::size_t index, ReferenceResult result) { errors[index] = result.error; });
-  EXPECT_NE(errors[0].find("glossy_depth of 0 is comparable"), std::string::npos) << errors[0];
-  EXPECT_EQ(errors[1], "");
-}
-
-INSTANTIATE_TEST_SUITE_P(Engines, FinerAgreement, testing::Values("povray"),
-                         [](const auto& test) { return test.param; });
 INSTANTIATE_TEST_SUITE_P(Engines, Agreement, testing::Values("povray", "blender"),
                          [](const auto& test) { return test.param; });
 

@@ -74,26 +74,6 @@ TEST(Evaluation, PeakByALampBehindTheEyeIsTheCoefficientTimesTheIrradiance) {
       << "with the paper's misprint";
 }
 
-TEST(Evaluation, SchlicksFactorIsOfTheAngleBetweenEyeAndHalfVector) {
-  Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 9}, {directional_at(60)}, 9);
-  scene.materials[0].specular_reflectance = {0.1, 0.5, 1};
-  const Rgb without = middle(scene);
-  scene.materials[0].fresnel = Fresnel::kSchlick;
-  const Rgb with = middle(scene);
-  const double weight = std::pow(1 - std::cos(kPi / 6), 5);
-  EXPECT_NEAR(with.r / without.r, (0.1 + 0.9 * weight) / 0.1, 1e-13);
-  EXPECT_NEAR(with.g / without.g, (0.5 + 0.5 * weight) / 0.5, 1e-13);
-  EXPECT_NEAR(with.b / without.b, 1, 1e-13);
-}
-
-TEST(Evaluation, LambertsSphereIsAlbedoOverPiTimesTheCosine) {
-  Scene scene = sphere_scene(kPhong, {directional_at(60, {1, 2, 3})}, 9);
-  scene.materials = {matt(0.8)};
-  const Rgb m = middle(scene);
-  EXPECT_NEAR(m.r, 0.8 / kPi * 0.5, 1e-15);
-  EXPECT_NEAR(m.b, 2.4 / kPi * 0.5, 1e-15);
-}
-
 TEST(Evaluation, APointLightFallsWithTheSquareOfTheDistanceAndALampsNormalWithTheCosine) {
   Scene scene = plane_scene();
   scene.lights = {PointLight{{0, 2, 0}, {kPi, kPi, kPi}}};
@@ -312,14 +292,6 @@ TEST(Evaluation, ALampOnASphereLightsWhatIsAboveItsHorizon) {
   EXPECT_GT(below, 50);
 }
 
-TEST(Evaluation, ACameraInsideASphereDoesNotSeeIt) {
-  Scene scene = plane_scene();
-  const double lit = middle(scene).r;
-  scene.lights = {PointLight{{0, 1, 0}, {kPi, kPi, kPi}}};
-  scene.spheres = {{scene.camera.origin, 2, 0}};
-  EXPECT_NEAR(middle(scene).r, lit, 1e-15);
-}
-
 double peak_of(const std::vector<Rgb>& pixels) {
   double peak = 0;
   for (const Rgb& pixel : pixels) peak = std::max(peak, max_component(pixel));
@@ -378,11 +350,13 @@ std::ptrdiff_t ring_size(const Scene& scene) {
 
 TEST(EdgeRing, IsEmptyWhereEveryRaySeesTheSame) { EXPECT_EQ(ring_size(plane_scene()), 0); }
 
-TEST(EdgeRing, HasTheTwoColumnsOfPixelsBesideABoundaryOfSquares) {
+TEST(EdgeRing, HasTheTwoColumnsOrRowsOfPixelsBesideABoundaryOfSquares) {
   Scene scene = plane_scene();
   scene.materials.push_back(matt(0.5));
-  scene.planes = {{{0.1, 0, 100}, {0, 1, 0}, 0, 1, 1000}};
-  EXPECT_EQ(ring_size(scene), 18);
+  for (const Vec3 corner : {Vec3{0.1, 0, 100}, Vec3{100, 0, 0.1}}) {
+    scene.planes = {{corner, {0, 1, 0}, 0, 1, 1000}};
+    EXPECT_EQ(ring_size(scene), 18) << corner.x;
+  }
   scene.planes[0].checker_material = 0;
   EXPECT_EQ(ring_size(scene), 0);
 }
@@ -414,14 +388,10 @@ TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
   EXPECT_GT(ring_size(scene), 8);
 }
 
-Scene canonical(const std::string& name) {
-  Scene scene = canonical_scene(name);
-  scene.film = {128, 128};
-  return scene;
-}
-
 TEST(EdgeRing, OfASphereLitFromTheCameraIsOneAboutItsSilhouette) {
-  const auto edges = truth::edge_ring(canonical("head_on"));
+  Scene scene = canonical_scene("head_on");
+  scene.film = {128, 128};
+  const auto edges = truth::edge_ring(scene);
   // Radius of the silhouette: tan(asin(1/5)) / tan(14 degrees) of half the picture.
   const double radius = 64 * 0.204124 / 0.249328;
   for (int y = 0; y < 128; ++y)
@@ -432,14 +402,6 @@ TEST(EdgeRing, OfASphereLitFromTheCameraIsOneAboutItsSilhouette) {
       }
     }
   EXPECT_GT(std::count(edges.begin(), edges.end(), 1), int(2 * 3.14 * radius));
-}
-
-TEST(EdgeRing, GrowsByTerminatorAndByShadowEdge) {
-  EXPECT_GT(ring_size(canonical("grazing_80")), ring_size(canonical("head_on")));
-  Scene scene = canonical("two_spheres");
-  const auto with = ring_size(scene);
-  scene.spheres[1].center = {3, 3, -20};  // still in view, no longer in the way of the light
-  EXPECT_LT(ring_size(scene), with);
 }
 
 TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
@@ -457,12 +419,6 @@ TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
   refuses("4 samples", [](Scene& s) { s.sampler.sample_count = 4; });
   refuses("inter-reflection", [](Scene& s) { s.depth.glossy = 1; });
   refuses("spheres", [](Scene& s) { s.spheres.resize(2000); });
-}
-
-TEST(Evaluation, LeavesRowsBlackOnceItIsToldToStop) {
-  for (const Rgb& pixel :
-       truth::evaluate(hall_scene(kPhong, 8), Digits::kFifty, [] { return true; }))
-    EXPECT_EQ(pixel, Rgb{});
 }
 
 TEST(SurfaceMask, IsWhereTheRayThroughThePixelMeetsASphere) {

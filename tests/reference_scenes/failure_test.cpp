@@ -108,24 +108,8 @@ class FakeEngine : public testing::TestWithParam<std::string> {
   std::map<std::size_t, std::string> logs_;  ///< of errors_of(), by scene
 };
 
-TEST(FailureClasses, HaveEachANameAndTheSameAgainHelpsWhereTheEngineIsThereAndCan) {
-  std::set<std::string_view> names(std::begin(kFailureNames), std::end(kFailureNames));
-  EXPECT_EQ(names.size(), std::size(kFailureNames));
-  using enum FailureClass;
-  EXPECT_EQ(failure_name(kBadOutput), "unreadable output");
-  EXPECT_EQ(failure_name(kExitCode), "exit code");
-  for (const FailureClass failure : {kCrash, kTimedOut, kNoProgress, kNoOutput, kWrongSize,
-                                     kNonFinite, kBadOutput, kExitCode, kOutOfMemory, kDiskLimit})
-    EXPECT_TRUE(worth_retrying(failure)) << failure_name(failure);
-  for (const FailureClass failure : {kNone, kEngineMissing, kRefused, kGivenUp})
-    EXPECT_FALSE(worth_retrying(failure)) << failure_name(failure);
-}
-
-TEST_P(FakeEngine, MissingIsSaidWithHowToInstall) {
+TEST_P(FakeEngine, ThatIsMissingOrIsAnotherProgramSaysSo) {
   EXPECT_THAT(unavailable_because(directory_.path() / "nothing"), HasSubstr("is not a program"));
-}
-
-TEST_P(FakeEngine, AnotherProgramIsNotTakenForIt) {
   EXPECT_THAT(unavailable_because(program("", "GNU grep 3.8")),
               HasSubstr("does not answer --version"));
 }
@@ -146,12 +130,6 @@ TEST_P(FakeEngine, OfAVersionThatCannotBeDrivenIsRefusedWithThatAndTheOnesThatCa
         << version;
 }
 
-TEST_P(FakeEngine, VersionIsRead) {
-  const auto engine = make_engine(GetParam(), program("exit 1"));
-  EXPECT_TRUE(engine->status().available()) << engine->status().why;
-  EXPECT_EQ(engine->status().version, GetParam() == "povray" ? "3.7.0.10" : "3.4.1");
-}
-
 TEST_P(FakeEngine, ComplaintIsInTheErrorInOneLineAndInTheLog) {
   const auto errors = errors_of("echo chatter; echo 'Parse Error: no such thing'; exit 7");
   EXPECT_THAT(errors.at(0), HasSubstr("stopped with exit code 7: Parse Error: no such thing"));
@@ -170,28 +148,26 @@ TEST_P(FakeEngine, ThatWasTooSlowToStartItsThreadsIsStartedAgain) {
               HasSubstr("stopped with exit code 1: Timed out waiting"));
 }
 
-TEST_P(FakeEngine, CrashIsThatScenesResult) {
-  for (const auto& [scene, error] : errors_of(std::string(kBeginFirst) + "\nkill -SEGV $$", 3))
-    EXPECT_THAT(error, HasSubstr("was ended by signal 11")) << scene;
-}
-
-TEST_P(FakeEngine, HangIsEndedAtTheTimeLimit) {
-  for (const auto& [scene, error] : errors_of(std::string(kBeginFirst) + "\nsleep 60", 2, 0.4))
-    EXPECT_THAT(error, HasSubstr("was stopped after 0.4 s")) << scene;
-}
-
-TEST_P(FakeEngine, NoPictureIsAnError) {
-  EXPECT_THAT(errors_of("exit 0").at(0),
-              testing::AnyOf(HasSubstr("wrote no picture"), HasSubstr("rendered nothing")));
-}
-
-TEST_P(FakeEngine, TextInPlaceOfAPictureIsAnError) {
-  const std::string pov = R"(echo text > "${1%.ini}.exr")";
-  const std::string blender = std::string(kBeginFirst) + R"(
-    echo text > "${job%job.json}$name-0.exr"
-    echo "lobelia: done $name 1")";
-  EXPECT_THAT(errors_of(GetParam() == "povray" ? pov : blender).at(0),
-              HasSubstr("picture cannot be used"));
+TEST_P(FakeEngine, ThatEndsWithoutAPictureLosesEveryScene) {
+  const bool povray = GetParam() == "povray";
+  const std::string begin = kBeginFirst;
+  struct {
+    std::string body;
+    int scenes;
+    double limit;
+    const char* said;
+  } const cases[] = {
+      {begin + "\nkill -SEGV $$", 3, 3600, "was ended by signal 11"},
+      {begin + "\nsleep 60", 2, 0.4, "was stopped after 0.4 s"},
+      {"exit 0", 1, 3600, povray ? "wrote no picture" : "rendered nothing"},
+      {povray ? R"(echo text > "${1%.ini}.exr")" : begin + R"(
+         echo text > "${job%job.json}$name-0.exr"
+         echo "lobelia: done $name 1")",
+       1, 3600, "picture cannot be used"},
+  };
+  for (const auto& [body, scenes, limit, said] : cases)
+    for (const auto& [scene, error] : errors_of(body, scenes, limit))
+      EXPECT_THAT(error, HasSubstr(said)) << body << "\n" << scene;
 }
 
 TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsClassAndItsLogAndNothingElses) {
@@ -277,17 +253,6 @@ TEST_P(FakeEngine, ThatIsTakenAwayMeanwhileIsMissing) {
     EXPECT_FALSE(worth_retrying(result.failure));
   });
   EXPECT_EQ(count, 9u);
-}
-
-TEST_P(FakeEngine, IsNotAskedForWhatItCannotShow) {
-  const auto engine = make_engine(GetParam(), program("exit 1"));
-  ReferenceOptions options;
-  options.shading = Shading::kNative;
-  const Scene scene = sphere_scene({"phong_rdf", "cs16", "exact", 16}, {point_light()}, 16);
-  render_all(*engine, std::span(&scene, 1), options, [&](std::size_t, ReferenceResult result) {
-    EXPECT_EQ(result.failure, FailureClass::kRefused);
-    EXPECT_NE(result.error, "");
-  });
 }
 
 TEST_P(FakeEngine, FloodOfWordsIsCutInTheLog) {

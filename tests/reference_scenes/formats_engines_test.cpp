@@ -1,17 +1,14 @@
-// Scenes for other programs, given to the real ones.
+// Scenes that are written for Blender, given to the real one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/process.hpp"
-#include "core/text.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
-#include "reference_scenes/preparation.hpp"
 #include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
@@ -20,76 +17,27 @@
 namespace lobelia {
 namespace {
 
-namespace fs = std::filesystem;
-
-class WrittenFor : public testing::Test {
+class WrittenForBlender : public testing::Test {
  protected:
-  /// Whether the test goes on.
-  bool start(const char* engine, std::string_view format, const Scene& scene) {
-    engine_ = make_engine(engine, {});
-    require_engine(*engine_);
-    if (!engine_->status().available()) return false;
-    EXPECT_EQ(scene_format(format).why_not(scene), "");
-    for (const auto& [file, text] : scene_format(format).write(scene))
-      write_file(directory_.path() / file, text);
-    return true;
-  }
-  ProcessResult run(const std::string& script) {
+  void SetUp() override { require_engine(*engine_); }
+  Image picture_of(const Scene& scene) {
+    const SceneFormat& format = scene_format("blender-python");
+    EXPECT_EQ(format.why_not(scene), "");
+    for (const auto& [file, text] : format.write(scene)) write_file(directory_.path() / file, text);
     ProcessOptions options;
     options.working_directory = directory_.path();
-    return run_process(
-        {"/bin/sh", "-c", "cd \"$1\" && " + script, "sh", directory_.path().string()}, options);
-  }
-  std::unique_ptr<Engine> engine_;
-  const TemporaryDirectory directory_;
-};
-
-class WrittenForPovray : public WrittenFor {
- protected:
-  void expect_our_picture(const Scene& scene, std::size_t passes) {
-    if (!start("povray", "povray", scene)) return;
-    const auto ended = run("sh povray.sh");
-    ASSERT_EQ(ended.exit_code, 0) << ended.output_tail;
-    std::vector<Image> pictures;
-    for (std::size_t p = 0; fs::exists(directory_.path() / fmt::format("pass{}.exr", p)); ++p) {
-      pictures.push_back(read_image(directory_.path() / fmt::format("pass{}.exr", p)));
-      // "; 4096 times too bright, ..."
-      double gain = 0;
-      const std::string ini = read_file(directory_.path() / fmt::format("pass{}.ini", p), 1 << 16);
-      ASSERT_TRUE(parse_number(ini.substr(2, ini.find(" times") - 2), gain));
-      for (float& value : pictures.back().values()) value = float(value / gain);
-    }
-    ASSERT_EQ(pictures.size(), passes);
-    const Difference found = difference(sum_of(pictures), render(scene, {}).image, 6e-4, 1e-8);
-    EXPECT_TRUE(found.finite);
-    EXPECT_LE(found.outliers, 3) << found.worst;
-  }
-};
-
-TEST_F(WrittenForPovray, ANativeHighlightIsOurPictureToHalfFloats) {
-  Scene scene = canonical_scene("oblique_45");
-  scene.film.width = scene.film.height = 64;
-  expect_our_picture(scene, 1);
-}
-
-TEST_F(WrittenForPovray, AModelThatItLacksIsOurPictureAsASumOverLights) {
-  Scene scene = canonical_scene("two_lights");
-  scene.film.width = scene.film.height = 64;
-  for (Material& material : scene.materials)
-    material.highlight = highlight_of({"modified_blinn_phong", "cs16", "exact", 100});
-  expect_our_picture(scene, scene.lights.size());
-}
-
-class WrittenForBlender : public WrittenFor {
- protected:
-  Image picture() {
-    const auto ended = run(
-        shell_quote(engine_->status().program.string()) +
-        " -b --factory-startup -noaudio -P scene.py -o //picture -f 1 && mv picture0001.exr picture.exr");
+    const auto ended = run_process(
+        {"/bin/sh", "-c",
+         "cd \"$1\" && \"$2\" -b --factory-startup -noaudio -P scene.py -o //picture -f 1 && "
+         "mv picture0001.exr picture.exr",
+         "sh", directory_.path().string(), engine_->status().program.string()},
+        options);
     EXPECT_EQ(ended.exit_code, 0) << ended.output_tail;
     EXPECT_THAT(ended.output_tail, testing::Not(testing::HasSubstr("Traceback")));
     return ended.exit_code == 0 ? read_image(directory_.path() / "picture.exr") : Image(1, 1);
   }
+  const std::unique_ptr<Engine> engine_ = make_engine("blender", {});
+  const TemporaryDirectory directory_;
 };
 
 /// The sum of a channel.
@@ -105,8 +53,7 @@ TEST_F(WrittenForBlender, AHighlightLitFromTheCameraIsNearlyOurs) {
   Scene scene = canonical_scene("head_on");
   scene.film.width = scene.film.height = 64;
   scene.materials[0].highlight = highlight_of({"blinn_phong_ndf", "cosine", "exact", 64});
-  if (!start("blender", "blender-python", scene)) return;
-  const Image theirs = picture(), ours = render(scene, {}).image;
+  const Image theirs = picture_of(scene), ours = render(scene, {}).image;
   ASSERT_EQ(theirs.width(), ours.width());
   const double peak = *std::ranges::max_element(ours.values());
   EXPECT_NEAR(*std::ranges::max_element(theirs.values()), peak, 0.03 * peak);
@@ -125,8 +72,7 @@ TEST_F(WrittenForBlender, EveryLampIsAsBrightAsOurs) {
     scene.sampler.sample_count = 64;
     scene.materials[0].specular_reflectance = {};
     scene.materials[0].diffuse_reflectance = {0.8, 0.8, 0.8};
-    if (!start("blender", "blender-python", scene)) return;
-    const Image theirs = picture(), ours = render(scene, {}).image;
+    const Image theirs = picture_of(scene), ours = render(scene, {}).image;
     for (std::size_t channel = 0; channel < lights.size(); ++channel) {
       SCOPED_TRACE(info(lights[channel]).type);
       const double sum = sum_of_channel(ours, channel);

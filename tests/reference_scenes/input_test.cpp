@@ -1,5 +1,4 @@
 // What is written down for the engines: numbers in full, and nothing that a person typed.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +20,6 @@
 #include "renderer/render.hpp"
 #include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "tests/json.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
 namespace lobelia {
@@ -33,25 +31,6 @@ using testing::Not;
 
 constexpr HighlightChoice kExpressed{"modified_blinn_phong", "cs16", "exact", 64};
 constexpr HighlightChoice kNative{"phong_rdf", "cosine", "exact", 64};
-
-TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
-  const std::string hostile =
-      "x\"} #include \"/etc/passwd\"\n#declare Gain = 0; Lobelia_Begin(1)\\\n'''\nimport os";
-  for (const HighlightChoice& choice : {kExpressed, kNative}) {
-    Scene scene = shadow_scene(choice, {directional_at(45), point_light()}, 64);
-    for (Material& material : scene.materials) material.id = hostile;
-    const std::regex allowed(
-        R"(#version 3\.7;|#include "lobelia_[a-z0-9_]+\.inc"|)"
-        R"((#declare Lobelia_Texture_[0-9]+ = )?)"
-        R"(Lobelia_[A-Za-z_]+\(([-+0-9.e<>, /]|Lobelia_[A-Za-z0-9_]+(\([-+0-9.e]+\))?)*\))");
-    for (const PovrayPass& pass : povray_input(scene).passes)
-      for (const std::string& line : split(pass.scene(), "\n"))
-        EXPECT_TRUE(std::regex_match(line, allowed)) << line;
-    const std::string job = blender_input(scene, "scene0").text;
-    EXPECT_THAT(job, Not(HasSubstr("passwd")));
-    EXPECT_THAT(job, Not(HasSubstr("import")));
-  }
-}
 
 /// The first that it can show.
 Highlight a_highlight_of(const EngineInfo& engine) {
@@ -169,18 +148,6 @@ TEST(EngineInput, PovrayShadesByItselfWhatItHasItself) {
   EXPECT_FALSE(is_native({"modified_phong", "cosine", "exact", 64}));
 }
 
-TEST(EngineUnits, LeaveAUnitSphereAtTheOriginAsItIs) {
-  const Scene scene = shadow_scene(kExpressed, {point_light()}, 64);
-  Scene alone = scene;
-  alone.spheres.pop_back();
-  const Scene placed = in_engine_units(alone);
-  EXPECT_EQ(placed.camera.origin, scene.camera.origin);
-  EXPECT_EQ(placed.spheres[0].center, scene.spheres[0].center);
-  EXPECT_EQ(placed.spheres[0].radius, 1);
-  EXPECT_EQ(std::get<PointLight>(placed.lights[0]).intensity,
-            std::get<PointLight>(scene.lights[0]).intensity);
-}
-
 TEST(EngineUnits, KeepThePicture) {
   Scene scene = shadow_scene(kExpressed, {point_light(), directional_at(20)}, 48);
   const auto move = [](Vec3 point) { return 0.01 * point + Vec3{7, -3, 2}; };
@@ -198,12 +165,6 @@ TEST(EngineUnits, KeepThePicture) {
   EXPECT_LT(placed.spheres[1].radius, 2);
   const Difference d = difference(render(placed, {}).image, picture, 1e-6, 1e-6);
   EXPECT_EQ(d.outliers, 0);
-}
-
-TEST(EngineUnits, GiveASceneWithoutLightsABlackOne) {
-  Scene scene = sphere_scene(kExpressed, {}, 16);
-  EXPECT_EQ(in_engine_units(scene).lights.size(), 1u);
-  EXPECT_EQ(povray_input(in_engine_units(scene)).passes.size(), 1u);
 }
 
 TEST(NotComparable, SaysWhy) {
@@ -310,15 +271,6 @@ TEST(EngineUnits, LeaveALampOnTheSurfacesThatItLiesOn) {
   EXPECT_EQ(before[0], std::vector{1});
   EXPECT_EQ(before[50], std::vector{0});
   EXPECT_EQ(find_contacts(in_engine_units(scene)), before);
-}
-
-TEST(BlenderInput, SaysWhichSurfacesALampLiesOn) {
-  const Json job = Json::parse(
-      blender_input(ground_scene(kNative, {point_light(), PointLight{{2, -1, 0}, kWhite}}, 16),
-                    "scene0")
-          .text);
-  EXPECT_FALSE(job.at("lights").at(0).contains("liesOn"));
-  EXPECT_EQ(job.at("lights").at(1).at("liesOn"), Json({1}));
 }
 
 TEST(BlenderInput, RefusesWhatBlenderWouldEnlarge) {

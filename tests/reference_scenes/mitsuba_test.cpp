@@ -18,7 +18,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 const SceneFormat& mitsuba() { return scene_format("mitsuba"); }
 std::string written(const Scene& scene) { return mitsuba().write(scene).at("scene.xml"); }
@@ -65,6 +64,7 @@ TEST(Mitsuba, IsWrittenAndReadAgainAsTheSameScene) {
     const Scene scene = sayable(random);
     if (scene.spheres.empty()) return "";
     if (const std::string why = mitsuba().why_not(scene); !why.empty()) return "refused: " + why;
+    if (!mitsuba().write(scene).contains("phong.py")) return "without its model";
     const ImportedScene read = parse_mitsuba(written(scene), "scene.xml", directory.path());
     if (!read.problems.empty()) return "a problem: " + read.problems.front();
     ++compared;
@@ -75,50 +75,35 @@ TEST(Mitsuba, IsWrittenAndReadAgainAsTheSameScene) {
   EXPECT_GT(compared, 300);
 }
 
-TEST(Mitsuba, SaysOurExamplesWithItsOwnModel) {
-  for (const char* name :
-       {"head_on", "oblique_45", "grazing_80", "point_light", "two_lights", "two_spheres",
-        "effects/rectangle_light", "effects/area_light", "effects/depth_of_field"}) {
-    SCOPED_TRACE(name);
-    Scene scene = canonical_scene(name);
-    EXPECT_NE(mitsuba().why_not(scene), "");
-    scene = sayable(std::move(scene));
-    ASSERT_EQ(mitsuba().why_not(scene), "");
-    EXPECT_EQ(mitsuba().write(scene).count("phong.py"), 1u);
-    const ImportedScene read = parse_mitsuba(written(scene), "scene.xml");
-    EXPECT_THAT(read.problems, ElementsAre());
-    EXPECT_EQ(scene_to_xml(read.scene), scene_to_xml(scene));
-  }
-}
-
 TEST(Mitsuba, SaysWhyItCannotShowAScene) {
-  Scene scene = sayable(canonical_scene("oblique_45"));
+  const Scene scene = sayable(canonical_scene("oblique_45"));
   const auto why = [&](auto change) {
     Scene other = scene;
     change(other);
     return mitsuba().why_not(other);
   };
   EXPECT_EQ(why([](Scene&) {}), "");
-  EXPECT_THAT(why([](Scene& s) { s.materials[0].highlight.model = *find_model("phong_rdf"); }),
-              HasSubstr("Mitsuba's phong is modified_phong with the lobe cosine"));
-  EXPECT_THAT(why([](Scene& s) { s.materials[0].fresnel = Fresnel::kSchlick; }),
-              HasSubstr("Fresnel"));
-  EXPECT_THAT(why([](Scene& s) {
-                s.materials[0].mirror_reflectance = {1, 1, 1};
-              }),
-              HasSubstr("mirror"));
-  EXPECT_THAT(why([](Scene& s) { s.planes.push_back({{}, {0, 1, 0}}); }), HasSubstr("plane"));
-  EXPECT_THAT(why([](Scene& s) { s.film.filter = *find_filter("blackman_harris"); }),
-              HasSubstr("blackman_harris"));
-  EXPECT_THAT(why([](Scene& s) { s.film.filter.radius = 2; }), HasSubstr("radius 2"));
-  EXPECT_THAT(why([](Scene& s) {
-                s.lights = {ConstantLight{}, ConstantLight{}};
-              }),
-              HasSubstr("environments"));
-  EXPECT_THAT(why([](Scene& s) {
-                s.lights = {PointLight{{}, {}, {0, 1, 0}}};
-              }),
-              HasSubstr("normal"));
+  const std::pair<void (*)(Scene&), const char*> cases[] = {
+      {[](Scene& s) { s.materials[0].highlight.model = *find_model("phong_rdf"); },
+       "Mitsuba's phong is modified_phong with the lobe cosine"},
+      {[](Scene& s) { s.materials[0].fresnel = Fresnel::kSchlick; }, "Fresnel"},
+      {[](Scene& s) {
+         s.materials[0].mirror_reflectance = Rgb{1, 1, 1};
+       },
+       "mirror"},
+      {[](Scene& s) {
+         s.planes.push_back({{}, {0, 1, 0}});
+       },
+       "plane"},
+      {[](Scene& s) { s.film.filter = *find_filter("blackman_harris"); }, "blackman_harris"},
+      {[](Scene& s) { s.film.filter.radius = 2; }, "radius 2"},
+      {[](Scene& s) { s.lights.assign(2, ConstantLight{}); }, "environments"},
+      {[](Scene& s) {
+         s.lights.assign(1, PointLight{{}, {}, {0, 1, 0}});
+       },
+       "normal"},
+  };
+  for (const auto& [change, words] : cases) EXPECT_THAT(why(change), HasSubstr(words));
   // Without a highlight, the model does not matter.
   EXPECT_EQ(why([](Scene& s) {
               s.materials[0].highlight.model = *find_model("phong_rdf");
@@ -228,56 +213,39 @@ std::string scene_with(const std::string& inside) {
          inside + "\n</scene>\n";
 }
 
+std::string moved(const char* shape, const std::string& by) {
+  return fmt::format("<shape type=\"{}\"><transform name=\"to_world\">{}</transform></shape>",
+                     shape, by);
+}
+
 TEST(Mitsuba, NamesWhatItDoesNotReadWithItsLine) {
-  const auto problem = [](const std::string& inside) {
-    const auto lines = parse_mitsuba(scene_with(inside), "s.xml").problems;
-    EXPECT_EQ(lines.size(), 1u) << inside << testing::PrintToString(lines);
-    return lines.empty() ? "" : lines.front();
+  const std::pair<std::string, const char*> cases[] = {
+      {"<shape type=\"obj\"><string name=\"filename\" value=\"/etc/passwd\"/></shape>",
+       "s.xml:7:2: <shape type=\"obj\"> is not supported; it is left out"},
+      {"\n<bsdf type=\"roughplastic\" id=\"x\"/>",
+       "s.xml:8:2: <bsdf type=\"roughplastic\"> is not supported; its surfaces are diffuse"},
+      {"<emitter type=\"spot\"/>", "s.xml:7:2: <emitter type=\"spot\"> is not supported"},
+      {"<include filename=\"other.xml\"/>", "s.xml:7:2: <include> is not supported; other files"},
+      {"<medium type=\"homogeneous\"/>", "s.xml:7:2: <medium type=\"homogeneous\">"},
+      {"<shape type=\"sphere\"><ref id=\"none\"/></shape>", "no <bsdf> has the id 'none'"},
+      {"<shape type=\"sphere\"><float name=\"radius\" value=\"nan\"/></shape>", "s.xml:7:"},
+      {"<shape type=\"sphere\"><float name=\"radius\" value=\"1e30\"/></shape>", "out of range"},
+      {moved("sphere", "<scale x=\"2\"/>"), "ellipsoid"},
+      {moved("sphere", "<scale value=\"0\"/>"), "s.xml:7:2"},
+      {moved("sphere", "<matrix value=\"1 2 3\"/>"), "9 or 16 numbers"},
+      {"<shape type=\"rectangle\"/>", "infinite plane"},
+      {"<emitter type=\"envmap\"><string name=\"filename\" value=\"../x.exr\"/></emitter>",
+       "180 degrees"},
+      {"<shape type=\"sphere\" id=\"$where\"/>",
+       "s.xml:7:2: the parameter '$where' has no <default>"},
+      {"<integrator type=\"direct\"><boolean name=\"hide_emitters\" value=\"true\"/></integrator>",
+       "s.xml:7:2: hide_emitters"},
+      {"<integrator type=\"path\"/>", "give a max_depth"},
+      {"<shape type=\"sphere\"><emitter type=\"area\"/></shape>", "a light only"},
   };
-  EXPECT_THAT(
-      problem("<shape type=\"obj\"><string name=\"filename\" value=\"/etc/passwd\"/></shape>"),
-      StartsWith("s.xml:7:2: <shape type=\"obj\"> is not supported; it is left out"));
-  EXPECT_THAT(
-      problem("\n<bsdf type=\"roughplastic\" id=\"x\"/>"),
-      StartsWith(
-          "s.xml:8:2: <bsdf type=\"roughplastic\"> is not supported; its surfaces are diffuse"));
-  EXPECT_THAT(problem("<emitter type=\"spot\"/>"),
-              StartsWith("s.xml:7:2: <emitter type=\"spot\"> is not supported"));
-  EXPECT_THAT(problem("<include filename=\"other.xml\"/>"),
-              StartsWith("s.xml:7:2: <include> is not supported; other files"));
-  EXPECT_THAT(problem("<medium type=\"homogeneous\"/>"),
-              StartsWith("s.xml:7:2: <medium type=\"homogeneous\">"));
-  EXPECT_THAT(problem("<shape type=\"sphere\"><ref id=\"none\"/></shape>"),
-              HasSubstr("no <bsdf> has the id 'none'"));
-  EXPECT_THAT(problem("<shape type=\"sphere\"><float name=\"radius\" value=\"nan\"/></shape>"),
-              StartsWith("s.xml:7:"));
-  EXPECT_THAT(problem("<shape type=\"sphere\"><float name=\"radius\" value=\"1e30\"/></shape>"),
-              HasSubstr("out of range"));
-  EXPECT_THAT(
-      problem(
-          "<shape type=\"sphere\"><transform name=\"to_world\"><scale x=\"2\"/></transform></shape>"),
-      HasSubstr("ellipsoid"));
-  EXPECT_THAT(
-      problem(
-          "<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"0\"/></transform></shape>"),
-      StartsWith("s.xml:7:2"));
-  EXPECT_THAT(
-      problem(
-          "<shape type=\"sphere\"><transform name=\"to_world\"><matrix value=\"1 2 3\"/></transform></shape>"),
-      HasSubstr("9 or 16 numbers"));
-  EXPECT_THAT(problem("<shape type=\"rectangle\"/>"), HasSubstr("infinite plane"));
-  EXPECT_THAT(
-      problem("<emitter type=\"envmap\"><string name=\"filename\" value=\"../x.exr\"/></emitter>"),
-      HasSubstr("180 degrees"));
-  EXPECT_THAT(problem("<shape type=\"sphere\" id=\"$where\"/>"),
-              StartsWith("s.xml:7:2: the parameter '$where' has no <default>"));
-  EXPECT_THAT(
-      problem(
-          "<integrator type=\"direct\"><boolean name=\"hide_emitters\" value=\"true\"/></integrator>"),
-      StartsWith("s.xml:7:2: hide_emitters"));
-  EXPECT_THAT(problem("<integrator type=\"path\"/>"), HasSubstr("give a max_depth"));
-  EXPECT_THAT(problem("<shape type=\"sphere\"><emitter type=\"area\"/></shape>"),
-              HasSubstr("a light only"));
+  for (const auto& [inside, said] : cases)
+    EXPECT_THAT(parse_mitsuba(scene_with(inside), "s.xml").problems, ElementsAre(HasSubstr(said)))
+        << inside;
 }
 
 TEST(Mitsuba, IsRefusedWhereNoSceneRemains) {
@@ -324,32 +292,19 @@ TEST(Mitsuba, SurvivesWhatNobodyWrites) {
     many_bsdfs += fmt::format("<bsdf type=\"diffuse\" id=\"{}\"/>", i % 2000);
     many_lights += "<emitter type=\"constant\"/>";
   }
-  for (
-      const std::string& inside :
-      {deep, doubled + "<bsdf type=\"$a63\" id=\"x\"/>", many_spheres, many_bsdfs, many_lights,
-       std::string(
-           "<emitter type=\"point\"><point name=\"position\" x=\"1e308\" y=\"-inf\" z=\"nan\"/></emitter>"),
-       std::string(
-           "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"1e9\"/><scale value=\"1e9\"/>"
-           "<scale value=\"1e9\"/></transform></shape>"),
-       std::string(
-           "<shape type=\"sphere\"><transform name=\"to_world\"><rotate angle=\"4\"/></transform></shape>"),
-       std::string(
-           "<shape type=\"sphere\"><transform name=\"to_world\"><lookat origin=\"0,0,0\" target=\"0,0,0\" "
-           "up=\"0,0,0\"/></transform></shape>"),
-       std::string("<transform><scale/></transform><shape><shape><sensor/></shape></shape>"),
-       std::string("<sensor type=\"perspective\"/>text<![CDATA[x]]><!-- c --><?p i?>")})
+  const std::string scale = "<scale value=\"1e9\"/>";
+  for (const std::string& inside :
+       {deep, doubled + "<bsdf type=\"$a63\" id=\"x\"/>", many_spheres, many_bsdfs, many_lights,
+        std::string("<emitter type=\"point\"><point name=\"position\" x=\"1e308\" y=\"-inf\" "
+                    "z=\"nan\"/></emitter>"),
+        moved("rectangle", scale + scale + scale), moved("sphere", "<rotate angle=\"4\"/>"),
+        moved("sphere", "<lookat origin=\"0,0,0\" target=\"0,0,0\" up=\"0,0,0\"/>"),
+        std::string("<transform><scale/></transform><shape><shape><sensor/></shape></shape>"),
+        std::string("<sensor type=\"perspective\"/>text<![CDATA[x]]><!-- c --><?p i?>")})
     expect_read_or_refused(scene_with(inside));
-  const auto problems = parse_mitsuba(scene_with(deep +
-                                                 [&] {
-                                                   std::string end;
-                                                   for (int i = 0; i < 100'000; ++i)
-                                                     end += "</shape>";
-                                                   return end;
-                                                 }()),
-                                      "s.xml")
-                            .problems;
-  EXPECT_THAT(problems, testing::Contains(HasSubstr("nested deeper")));
+  for (int i = 0; i < 100'000; ++i) deep += "</shape>";
+  EXPECT_THAT(parse_mitsuba(scene_with(deep), "s.xml").problems,
+              testing::Contains(HasSubstr("nested deeper")));
 }
 
 TEST(Mitsuba, SurvivesRandomChangesOfItsBytes) {

@@ -65,6 +65,14 @@ class NativeEngine : public testing::TestWithParam<std::string> {
     const Highlight& h = scene.materials[0].highlight;
     return fmt::format("{}, {}, n = {}", info(h.model).name, info(h.lobe).name, h.exponent);
   }
+  void expect_within_floor(const std::vector<Scene>& scenes) {
+    ASSERT_GE(scenes.size(), 1u);
+    render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
+      SCOPED_TRACE(name(scenes[i]));
+      ASSERT_EQ(result.error, "");
+      EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
+    });
+  }
   std::unique_ptr<Engine> engine_;
   ReferenceOptions options_{.shading = Shading::kNative};
 };
@@ -100,13 +108,7 @@ TEST_P(NativeEngine, ShowsColouredLightsADiffuseBaseAndAFilmThatIsAside) {
     scene.materials[0].diffuse_reflectance = {0.2, 0.4, 0.8};
     scenes.push_back(scene);
   }
-  scenes = shown(scenes);
-  ASSERT_GE(scenes.size(), 1u);
-  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
-    SCOPED_TRACE(name(scenes[i]));
-    ASSERT_EQ(result.error, "");
-    EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
-  });
+  expect_within_floor(shown(scenes));
 }
 
 TEST_P(NativeEngine, ShowsWhatIsJustBeforeTheCamera) {
@@ -120,12 +122,7 @@ TEST_P(NativeEngine, ShowsWhatIsJustBeforeTheCamera) {
   std::erase_if(scenes, [](const Scene& scene) {
     return std::ranges::all_of(truth::evaluate(scene, truth::Digits::kDouble), is_black);
   });
-  ASSERT_GE(scenes.size(), 1u);
-  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
-    SCOPED_TRACE(name(scenes[i]));
-    ASSERT_EQ(result.error, "");
-    EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
-  });
+  expect_within_floor(scenes);
 }
 
 /// Babylon.js has neither.
@@ -141,13 +138,7 @@ TEST_P(NativeEngine, ShowsPointLightsOrShadows) {
       material.specular_reflectance = 0.6 * kWhite;
     }
   }
-  scenes = shown(scenes);
-  ASSERT_GE(scenes.size(), 1u) << "point lights or shadows";
-  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
-    SCOPED_TRACE(name(scenes[i]));
-    ASSERT_EQ(result.error, "");
-    EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
-  });
+  expect_within_floor(shown(scenes));
 }
 
 TEST_P(NativeEngine, SaysInASentenceWhatItCannotShow) {

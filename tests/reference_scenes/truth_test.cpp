@@ -6,8 +6,6 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
-#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia {
@@ -131,46 +129,6 @@ TEST(TheReference, PutsThePeakOfALightBehindTheEyeIntoTheMiddle) {
   EXPECT_LT(radiance[39].b, radiance[40].b);
 }
 
-TEST(TheReference, KnowsShadowsAndASphereInPlaceOfAnother) {
-  Scene scene = one_sphere();
-  const double alone = truth::Picture(scene).highlights(scene.materials[0].highlight)[40].b;
-  scene.spheres.push_back(scene.spheres[0]);
-  EXPECT_EQ(truth::Picture(scene).highlights(scene.materials[0].highlight)[40].b, alone);
-  scene.spheres[1] = {{0, 0, 20}, 1, 0};  // behind the eye, before the light
-  EXPECT_EQ(truth::Picture(scene).sphere(40), 0);
-  EXPECT_EQ(truth::Picture(scene).highlights(scene.materials[0].highlight)[40].b, 0);
-}
-
-/// Largest difference of our picture from the truth, of the peak.
-double apart(const Scene& scene) {
-  const auto expected = truth::Picture(scene).highlights(scene.materials[0].highlight);
-  const Image ours = render(scene, {}).image;
-  double peak = 0, worst = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    peak = std::max(peak, expected[i].b);
-    worst = std::max(worst, std::abs(double(ours.values()[3 * i + 2]) - expected[i].b));
-  }
-  EXPECT_GT(peak, 0);
-  return worst / peak;
-}
-
-TEST(TheReference, AndWeAgreeOnALampThatShinesWithACosineAndOnAFilmAside) {
-  Scene scene = one_sphere();
-  scene.film = {24, 16};
-  const Vec3 place{1.5, 2, 2.5};
-  scene.lights = {PointLight{place, {1, 1, 1}}};
-  const double everywhere = truth::Picture(scene).peak();
-  EXPECT_LT(apart(scene), 1e-6);
-  for (const Vec3 normal : {Vec3{0, -1, 0}, Vec3{-0.6, 0, -0.8}, normalize({1, -1, 0})}) {
-    scene.lights = {PointLight{place, {1, 1, 1}, normal}};
-    EXPECT_LT(apart(scene), 1e-6) << normal.x;
-    EXPECT_LT(truth::Picture(scene).peak(), 0.9 * everywhere) << "the cosine dims it";
-  }
-  scene.camera.principal_point_offset_x = 0.3;
-  scene.camera.principal_point_offset_y = -0.2;
-  EXPECT_LT(apart(scene), 1e-6);
-}
-
 TEST(TheReference, AFilmAsideShowsThePictureMovedByWholePixels) {
   Scene scene = one_sphere();
   scene.film = {40, 30};
@@ -181,17 +139,6 @@ TEST(TheReference, AFilmAsideShowsThePictureMovedByWholePixels) {
   for (int y = 3; y < 30; ++y)
     for (int x = 0; x < 35; ++x)
       EXPECT_NEAR(moved.pixel(x + 5, y - 3)[1], straight.pixel(x, y)[1], 1e-6) << x << ", " << y;
-}
-
-TEST(ModelRows, RefuseAModelThatTheyDoNotHaveByItsName) {
-  for (const ModelInfo& model : models()) EXPECT_EQ(truth::model_row(model.name).name, model.name);
-  try {
-    truth::model_row("phong_rdff");
-    FAIL() << "it took another model";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInternal);
-    EXPECT_NE(std::string(error.what()).find("'phong_rdff'"), std::string::npos);
-  }
 }
 
 }  // namespace

@@ -171,31 +171,6 @@ TEST(EveryFilter, IsWithoutBiasAtAnyNumberOfSamples) {
   }
 }
 
-TEST(EveryFilter, GivesAStraightEdgeItsOwnProfile) {
-  // Half of the world is bright: a pixel at distance x from the edge is the filter's integral beyond it.
-  for (const Filter filter : all_filters()) {
-    Scene scene;
-    scene.camera = {{0, 10, 0}, {0, 0, 0}, {0, 0, -1}, 2 * std::atan(0.4) * 180 / kPi};
-    scene.film = {16, 4, filter};
-    scene.materials = {matt(0), matt(1)};
-    scene.planes = {{{0, 0, 50}, {0, 1, 0}, 0, 1, 100}};
-    scene.lights = {DirectionalLight{{0, -1, 0}, {kPi, kPi, kPi}}};
-    scene.sampler.sample_count = 4096;
-    const Image image = render(scene, {}).image;
-    constexpr int kParts = 10000, kRow = 0;
-    for (int x = 0; x < 16; ++x) {
-      double sum = 0, bright = 0;
-      for (int i = 0; i < kParts; ++i) {
-        const double offset = filter.radius * (2 * (i + 0.5) / kParts - 1);
-        const double value = filter_at(filter, offset);
-        sum += value;
-        if (x + 0.5 + offset < 8) bright += value;
-      }
-      EXPECT_NEAR(image.pixel(x, kRow)[0], bright / sum, 4e-3) << label(filter) << ", pixel " << x;
-    }
-  }
-}
-
 /// Spheres with highlights, shadows and silhouettes, grey, in which a few samples tell where more are needed.
 Scene random_scene(std::uint64_t seed) {
   std::mt19937_64 random(seed);

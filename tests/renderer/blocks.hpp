@@ -32,13 +32,16 @@ struct Blocks {
   double variance(std::size_t i) const { return spread[i] / (count - 1) / count; }
 };
 
+/// The difference of a block, in standard errors.
+inline double apart(const Blocks& a, const Blocks& b, std::size_t i) {
+  const double difference = std::abs(a.mean[i] - b.mean[i]) - 1e-6 * (a.mean[i] + b.mean[i]);
+  return std::max(0.0, difference) / std::sqrt(a.variance(i) + b.variance(i) + 1e-300);
+}
+
 /// The largest difference of a block, in standard errors.
 inline double farthest(const Blocks& a, const Blocks& b) {
   double z = 0;
-  for (std::size_t i = 0; i < a.mean.size(); ++i) {
-    const double apart = std::abs(a.mean[i] - b.mean[i]) - 1e-6 * (a.mean[i] + b.mean[i]);
-    z = std::max(z, apart / std::sqrt(a.variance(i) + b.variance(i) + 1e-300));
-  }
+  for (std::size_t i = 0; i < a.mean.size(); ++i) z = std::max(z, apart(a, b, i));
   return z;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "renderer/catalogue_record.hpp"
 #include "tests/json.hpp"
@@ -65,23 +64,6 @@ TEST(CatalogueRecord, KnowsTheHalfWidthAndTheSupportOfALobe) {
   EXPECT_LT(find(record.at("lobes"), "cs16").at("aboveCosine").get<double>(), 1e-14);
   EXPECT_GT(find(record.at("lobes"), "cs16").at("belowCosine").get<double>(), 1e-3);
   EXPECT_GT(find(record.at("lobes"), "schlick").at("aboveCosine").get<double>(), 0.1);
-}
-
-TEST(CatalogueRecord, SaysInWordsTheCoefficientOfEachModel) {
-  const std::set<std::string> expected{
-      "1/(2 pi (M0)), s = 0 to 1", "1/(2 pi (M0 - M1)), s = 0 to 1",
-      "1/(2 pi (4 M0 - 4 M1)), s = 0 to 1 - sqrt(1/2)",
-      "1/(2 pi (4 M0 - 20 M1 + 24 M2 - 8 M3)), s = 0 to 1 - sqrt(1/2)"};
-  std::set<std::string> formulas;
-  for (const ModelId model : all_models()) formulas.insert(exact_formula(model));
-  EXPECT_EQ(formulas, expected);
-}
-
-TEST(CatalogueRecord, HasTheTableOfThePaperAsPeopleWriteIt) {
-  const CoefficientFormulas row_4 = formulas(*find_model("modified_blinn_phong"));
-  EXPECT_EQ(row_4.exact_cosine, "(n + 2) (n + 4) / (8 pi (2^(-n/2) + n))");
-  EXPECT_EQ(row_4.paper_cosine, "(n + 2) (n + 4) / (4 pi (2^(-n/2) + n))");
-  EXPECT_EQ(row_4.paper_cs16, "(1.027 n + 4.8) / (8 pi)");
 }
 
 }  // namespace

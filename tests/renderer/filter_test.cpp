@@ -99,22 +99,6 @@ TEST(FilterSampler, StaysWithinTheRadiusWhateverItIs) {
       }
 }
 
-TEST(FilterSampler, ScalesItsOffsetsWithTheRadius) {
-  for (const std::string_view filter_name : filter_names()) {
-    Filter narrow = *find_filter(filter_name), wide = narrow;
-    narrow.radius = 1;
-    wide.radius = 3;
-    const FilterSampler a(narrow), b(wide);
-    for (int i = 0; i < 100; ++i) {
-      const auto at_a = a(false, i / 100.0, i * 7 % 100 / 100.0);
-      const auto at_b = b(false, i / 100.0, i * 7 % 100 / 100.0);
-      EXPECT_NEAR(3 * at_a.x, at_b.x, 1e-14) << filter_name;
-      EXPECT_NEAR(3 * at_a.y, at_b.y, 1e-14) << filter_name;
-    }
-    EXPECT_EQ(a.negative_weight(), b.negative_weight()) << filter_name;
-  }
-}
-
 TEST(FilterSampler, GivesEachPartItsShareOfAnyNumberOfSamplesAndItsOwnCount) {
   for (const std::string_view filter_name : filter_names()) {
     const FilterSampler sampler(*find_filter(filter_name));
@@ -130,13 +114,6 @@ TEST(FilterSampler, GivesEachPartItsShareOfAnyNumberOfSamplesAndItsOwnCount) {
     }
     EXPECT_EQ(counts[1] == 0, weight == 0) << filter_name;
   }
-}
-
-TEST(FilterSampler, HasANegativePartForMitchellOnly) {
-  for (const std::string_view filter_name : filter_names())
-    EXPECT_EQ(FilterSampler(*find_filter(filter_name)).negative_weight() > 0,
-              filter_name == "mitchell")
-        << filter_name;
 }
 
 }  // namespace

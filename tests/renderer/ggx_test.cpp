@@ -1,11 +1,12 @@
-// The laws of GGX: its distribution is normalised, its shadowing is that of its distribution, light is neither made nor
-// directed one way, and none of it loses digits.
+// The laws of GGX: its shadowing is that of its distribution, light is not directed one way, and none of it loses digits.
 #include "renderer/ggx.hpp"
 
 #include <gtest/gtest.h>
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -17,8 +18,6 @@ namespace lobelia {
 namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_50;
-
-constexpr double kAlphas[] = {1e-4, 1e-3, 0.03, 0.1, 0.3, 0.6, 0.9, 1};
 
 /// The formula as Walter et al. print it, by the cosine.
 template <class Real>
@@ -59,19 +58,6 @@ TEST(GgxDistribution, LosesNoDigitsWhereTheTextbookFormulaLosesAll) {
   EXPECT_GT(largest_error<float>(
                 [](float alpha, float s) { return textbook_distribution<float>(alpha, 1 - s); }),
             0.99);
-}
-
-TEST(GgxDistribution, IsNormalisedOverTheProjectedArea) {
-  for (const double alpha : kAlphas) {
-    const auto per_decade = [&](double t) {
-      const double s = std::exp(t);
-      return ggx_distribution(alpha, s) * 2 * kPi * (1 - s) * s;
-    };
-    using Quadrature = boost::math::quadrature::gauss_kronrod<double, 61>;
-    double sum = 0;  // from far below alpha^2 in pieces
-    for (int t = -60; t < 0; t += 4) sum += Quadrature::integrate(per_decade, t, t + 4, 5, 1e-13);
-    EXPECT_NEAR(sum, 1, 1e-12) << alpha;
-  }
 }
 
 TEST(GgxModel, IsTheDistributionTimesItsShadowing) {
@@ -136,30 +122,6 @@ TEST(GgxShadowing, ShowsTheEyeAsMuchOfTheFacetsAsOfThePlaneBelowThem) {
           alpha, [&](Vec3 normal) { return std::max(0.0, dot(to_eye, normal)) / normal.z; });
       EXPECT_NEAR(masking * seen, to_eye.z, 1e-4) << alpha << ", " << degrees;
     }
-}
-
-/// What leaves of a beam at an incidence, without Fresnel's factor.
-double energy_of_beam(double alpha, double degrees) {
-  const Vec3 to_light = eye_at(degrees);
-  return mean_over_normals(alpha, [&](Vec3 half) {
-    const double cosine = dot(to_light, half);
-    const Vec3 to_eye = 2 * cosine * half - to_light;
-    if (!(cosine > 0) || !(to_eye.z > 0)) return 0.0;
-    return 4 * cosine / half.z * to_eye.z * ggx_visibility(alpha, to_light.z, to_eye.z);
-  });
-}
-
-TEST(GgxEnergy, IsAtMostThatOfTheBeamAndAllOfItFromASmoothSurface) {
-  for (const double alpha : kAlphas)
-    for (const double degrees : {0.0, 30.0, 60.0, 80.0, 89.0}) {
-      const double energy = energy_of_beam(alpha, degrees);
-      EXPECT_LT(energy, 1 + 1e-6) << alpha << ", " << degrees;
-      if (alpha <= 1e-3 && degrees <= 80) {
-        EXPECT_NEAR(energy, 1, 1e-3) << alpha << ", " << degrees;
-      }
-    }
-  // Of alpha 1, D is 1 / pi, and the integral is closed.
-  EXPECT_NEAR(energy_of_beam(1, 0), 1 - std::log(2), 1e-5);  // 2.9e-6 of the grid
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 #include "lobelia_paths.hpp"
@@ -10,26 +9,23 @@
 namespace lobelia {
 namespace {
 
-const std::string kRoot = LOBELIA_SOURCE_DIR;
+const std::string kRoot = LOBELIA_SOURCE_DIR, kScenes = kRoot + "/reference_scenes/scenes";
 
 TEST(CanonicalScenes, AllReadAndWriteBackToTheSameScene) {
   int count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(kRoot + "/reference_scenes/scenes")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kScenes)) {
     if (entry.path().extension() != ".xml") continue;
     ++count;
-    const Scene scene = read_scene(entry.path());
-    EXPECT_FALSE(scene.lights.empty()) << entry.path();
-    EXPECT_FALSE(scene.spheres.empty()) << entry.path();
-    const std::string xml = scene_to_xml(scene);
-    EXPECT_EQ(scene_to_xml(parse_scene(xml, "again")), xml) << entry.path();
+    SCOPED_TRACE(entry.path().string());
+    const Scene scene = again(read_scene(entry.path()), entry.path().parent_path());
+    EXPECT_FALSE(scene.lights.empty());
+    EXPECT_FALSE(scene.spheres.empty());
   }
-  EXPECT_GE(count, 6);
+  EXPECT_GE(count, 14);
 }
 
-TEST(EffectScenes, ReadAndWriteBackAndHaveWhatTheirNamesSay) {
-  const std::filesystem::path directory = kRoot + "/reference_scenes/scenes/effects";
-  const std::map<std::string, std::string> beyond = {
+TEST(EffectScenes, HaveWhatTheirNamesSay) {
+  const std::pair<const char*, const char*> beyond[] = {
       {"area_light", "an area light, a ground plane"},
       {"rectangle_light", "an area light, a ground plane"},
       {"environment", "an environment light, a ground plane"},
@@ -38,31 +34,20 @@ TEST(EffectScenes, ReadAndWriteBackAndHaveWhatTheirNamesSay) {
       {"depth_of_field", "a ground plane, depth of field"},
       {"crowd", ""},
   };
-  std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    if (entry.path().extension() != ".xml") continue;
-    ++count;
-    const Scene scene = read_scene(entry.path());
-    EXPECT_EQ(beyond_delta_lights(scene), beyond.at(entry.path().stem().string()));
-    EXPECT_EQ(scene.film.width, 256) << entry.path();
-    again(scene, directory);
-  }
-  EXPECT_EQ(count, beyond.size());
-  EXPECT_EQ(read_scene(directory / "mirrors.xml").depth.mirror, 5);
-  EXPECT_EQ(read_scene(directory / "crowd.xml").spheres.size(), 10164u);
+  const std::string effects = kScenes + "/effects/";
+  for (const auto& [name, what] : beyond)
+    EXPECT_EQ(beyond_delta_lights(read_scene(effects + name + ".xml")), what);
+  EXPECT_EQ(read_scene(effects + "mirrors.xml").depth.mirror, 5);
+  EXPECT_EQ(read_scene(effects + "crowd.xml").spheres.size(), 10164u);
 }
 
 TEST(SceneWriter, KeepsEveryDigit) {
-  Scene original = read_scene(kRoot + "/reference_scenes/scenes/two_lights.xml");
+  Scene original = read_scene(kScenes + "/two_lights.xml");
   original.camera.fov_degrees = 28.072486935852954;
   original.spheres[0].center = {1.0 / 3, -2e-9, 123456789.123456};
   original.materials[0].highlight.exponent = 0.1 + 0.2;
   original.sampler.seed = 9007199254740991u;
-  const Scene back = parse_scene(scene_to_xml(original), "again");
-  EXPECT_EQ(back.camera.fov_degrees, original.camera.fov_degrees);
-  EXPECT_EQ(back.spheres[0].center, original.spheres[0].center);
-  EXPECT_EQ(back.materials[0].highlight.exponent, original.materials[0].highlight.exponent);
-  EXPECT_EQ(back.sampler.seed, original.sampler.seed);
+  again(original);
 }
 
 TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint) {
@@ -90,8 +75,6 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
   const BadScene bad[] = {
       {scene(emitter + "0,0\"/></emitter>"),
        "s.xml:4:35: direction '0,0' is not three numbers; allowed: -1e+09 to 1e+09"},
-      {scene(emitter + "0,0,nan\"/></emitter>"),
-       "s.xml:4:35: direction '0,0,nan' is not a finite number; allowed: -1e+09 to 1e+09"},
       {scene(emitter + "0,0,0\"/></emitter>"),
        "s.xml:3:2: direction is zero; allowed: any other vector"},
       {scene("<emitter type=\"directionl\"/>"),
@@ -103,9 +86,6 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
       {scene("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/><bsdf type=\"phong_rdf\">"
              "<float name=\"exponent\" value=\"8\"/></bsdf></shape>"),
        "s.xml:3:50: radius '-1' is out of range; allowed: 1e-09 to 1e+09"},
-      {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\">"
-             "<float name=\"exponent\" value=\"-8\"/></bsdf></shape>"),
-       "s.xml:3:75: exponent '-8' is out of range; allowed: 0.001 to 1e+08"},
       {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\"/></shape>"),
        "s.xml:3:23: <bsdf type=\"phong_rdf\"> needs the parameter 'exponent' (sharpness n)"},
       {scene(
@@ -155,21 +135,15 @@ TEST(SceneReader, ReportsAllErrorsInOneRun) {
   EXPECT_THAT(message, testing::HasSubstr("text 'hello' inside <scene>"));
 }
 
-TEST(SceneReader, RefusesAPictureOfAMillionByAMillion) {
-  std::string sensor = kSensor;
-  sensor.insert(sensor.find("</sensor>"),
-                "<film type=\"hdrfilm\"><integer name=\"width\" value=\"1000000\"/>"
-                "<integer name=\"height\" value=\"1000000\"/></film>");
-  EXPECT_THAT(error_of(scene("", sensor)),
+TEST(SceneReader, RefusesAPictureOfTooManyPixels) {
+  const auto error_of_side = [](const std::string& side) {
+    return error_of(scene(
+        "", sensor("perspective", "<film type=\"hdrfilm\">" + given("integer", "width", side) +
+                                      given("integer", "height", side) + "</film>")));
+  };
+  EXPECT_THAT(error_of_side("1000000"),
               testing::HasSubstr("width '1000000' is out of range; allowed: 1 to 32768 pixels"));
-}
-
-TEST(SceneReader, RefusesTooManyPixelsInAll) {
-  std::string sensor = kSensor;
-  sensor.insert(sensor.find("</sensor>"),
-                "<film type=\"hdrfilm\"><integer name=\"width\" value=\"32768\"/>"
-                "<integer name=\"height\" value=\"32768\"/></film>");
-  EXPECT_THAT(error_of(scene("", sensor)), testing::HasSubstr("32768 x 32768 pixels; allowed: "));
+  EXPECT_THAT(error_of_side("32768"), testing::HasSubstr("32768 x 32768 pixels; allowed: "));
 }
 
 TEST(SceneReader, ReadsNoEntitiesAndNothingFromOutside) {

@@ -27,14 +27,15 @@ TEST(SceneLens, IsReadAndWrittenToTheLastDigit) {
 }
 
 TEST(SceneCamera, MayHaveItsFilmAside) {
-  const std::string offsets = given("float", "principal_point_offset_x", "0.25") +
-                              given("float", "principal_point_offset_y", "-0.1");
-  for (const auto& type : {"perspective", "thinlens"}) {
-    const std::string lens =
-        type == std::string("thinlens") ? given("float", "focus_distance", "2") : std::string();
-    const Camera camera = with_sensor(sensor(type, offsets + lens)).camera;
-    EXPECT_EQ(camera.principal_point_offset_x, 0.25);
-    EXPECT_EQ(camera.principal_point_offset_y, -0.1);
+  for (const auto& [x, y] : {std::pair("0.25", "-0.1"), {"0", "-0.1"}, {"0.25", "0"}}) {
+    const std::string offsets = given("float", "principal_point_offset_x", x) +
+                                given("float", "principal_point_offset_y", y);
+    for (const auto& text : {sensor("perspective", offsets),
+                             sensor("thinlens", offsets + given("float", "focus_distance", "2"))}) {
+      const Camera camera = with_sensor(text).camera;
+      EXPECT_EQ(camera.principal_point_offset_x, std::stod(x));
+      EXPECT_EQ(camera.principal_point_offset_y, std::stod(y));
+    }
   }
   EXPECT_EQ(with_sensor(kSensor).camera.principal_point_offset_x, 0);
 }
@@ -83,25 +84,13 @@ TEST(SceneDepth, WithAMirrorAndNoIntegratorIsEightReflections) {
 
 TEST(SceneSettings, EveryErrorHasItsPlace) {
   const BadScene bad[] = {
-      {scene("", sensor("thinlens", "")),
-       "s.xml:2:2: <sensor type=\"thinlens\"> needs the parameter 'focus_distance' (along the view, "
-       "of the plane that is sharp)"},
-      {scene("", sensor("thinlens", given("float", "focus_distance", "0"))),
-       "s.xml:2:180: focus_distance '0' is out of range; allowed: 1e-09 to 1e+09"},
       {scene("", sensor("perspective", given("float", "aperture_radius", "1"))),
        "s.xml:2:160: <sensor> has no parameter 'aperture_radius'; allowed: fov, "
        "principal_point_offset_x, principal_point_offset_y"},
-      {scene("", sensor("perspective", film(filter("boxx")))),
-       "s.xml:2:183: unknown rfilter type 'boxx'; allowed: box, tent, gaussian, blackman_harris, "
-       "mitchell; did you mean 'box'?"},
-      {scene("", sensor("perspective", film(filter("box", given("float", "radius", "0.05"))))),
-       "s.xml:2:216: radius '0.05' is out of range; allowed: 0.1 to 16 pixels"},
       {scene("", sensor("perspective", film(filter("box") + filter("tent")))),
        "s.xml:2:199: a second <rfilter>; one is allowed"},
       {scene("<integrator type=\"path\"/><integrator type=\"path\"/>"),
        "s.xml:3:27: a second <integrator>; one is allowed"},
-      {scene("<integrator type=\"pat\"/>"),
-       "s.xml:3:19: unknown integrator type 'pat'; allowed: path; did you mean 'path'?"},
       {scene("<integrator type=\"path\">" + given("integer", "mirror_depth", "65") +
              "</integrator>"),
        "s.xml:3:61: mirror_depth '65' is out of range; allowed: 0 to 64"},

@@ -12,7 +12,7 @@
 
 namespace lobelia {
 
-inline constexpr double kFixedExponents[] = {1, 16, 64, 1024, 1e5};
+inline constexpr double kFixedExponents[] = {1, 12.5, 64, 1024, 1e5};
 
 inline std::vector<LobeId> every_lobe() {
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());

@@ -7,7 +7,6 @@
 #include <regex>
 #include <set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "tests/shaders/exports.hpp"
@@ -17,6 +16,18 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+
+/// An expression that adds up every function of the export: its red, if it is a colour.
+std::string calls(const ShaderExport& request, const std::string& vec3) {
+  std::string sum;
+  const std::string vectors =
+      fmt::format("{0}(0.0, 0.0, 1.0), {0}(0.6, 0.0, 0.8), {0}(0.0, 0.6, 0.8)", vec3);
+  for (const ModelId model : request.models)
+    sum += (sum.empty() ? "" : " + ") +
+           call_of(request, model, vectors, "16.0", "2.5", vec3 + "(0.04, 0.5, 1.0)") +
+           (request.fresnel == Fresnel::kNone ? "" : ".x");
+  return sum;
+}
 
 class CompiledByGlslang : public testing::Test {
  protected:
@@ -48,37 +59,31 @@ class CompiledByGlslang : public testing::Test {
     files_.push_back(file);
   }
 
+  /// By this version of GLSL, with `head` at the beginning of each shader.
+  void expect_accepted(const std::string& version, const char* head,
+                       const std::vector<ShaderExport>& requests) {
+    const bool old = version.starts_with("1");
+    files_.clear();
+    for (const ShaderExport& request : requests)
+      write(fmt::format("{}.frag", files_.size()),
+            fmt::format("#version {}\n{}{}{}void main() {{ {} = vec4({}); }}\n", version, head,
+                        old ? "" : "out vec4 colour;\n", shader_text(request),
+                        old ? "gl_FragColor" : "colour", calls(request, "vec3")));
+    EXPECT_GT(files_.size(), 100u);
+    EXPECT_EQ(complaints({}), "") << version;
+  }
+
   std::filesystem::path compiler_;
   TemporaryDirectory scratch_;
   std::vector<std::string> files_;
 };
 
-/// An expression that adds up every function of the export: its red, if it is a colour.
-std::string calls(const ShaderExport& request, const std::string& vec3) {
-  std::string sum;
-  const std::string vectors =
-      fmt::format("{0}(0.0, 0.0, 1.0), {0}(0.6, 0.0, 0.8), {0}(0.0, 0.6, 0.8)", vec3);
-  for (const ModelId model : request.models)
-    sum += (sum.empty() ? "" : " + ") +
-           call_of(request, model, vectors, "16.0", "2.5", vec3 + "(0.04, 0.5, 1.0)") +
-           (request.fresnel == Fresnel::kNone ? "" : ".x");
-  return sum;
-}
-
 TEST_F(CompiledByGlslang, EveryGlslExportIsAcceptedByTheOldestAndTheNewestVersions) {
-  for (const auto& [name, head, output] :
-       {std::array{"100", "#version 100\nprecision highp float;\n", "gl_FragColor"},
-        std::array{"110", "#version 110\n", "gl_FragColor"},
-        std::array{"320", "#version 320 es\nprecision highp float;\nout vec4 colour;\n", "colour"},
-        std::array{"460", "#version 460\nout vec4 colour;\n", "colour"}}) {
-    files_.clear();
-    for (const ShaderExport& request : every_export("glsl"))
-      write(fmt::format("{}_{}.frag", name, files_.size()),
-            fmt::format("{}{}void main() {{ {} = vec4({}); }}\n", head, shader_text(request),
-                        output, calls(request, "vec3")));
-    EXPECT_GT(files_.size(), 100u);
-    EXPECT_EQ(complaints({}), "") << name;
-  }
+  const char* const es = "precision highp float;\n";
+  expect_accepted("100", es, every_export("glsl"));
+  expect_accepted("110", "", every_export("glsl"));
+  expect_accepted("320 es", es, every_export("glsl"));
+  expect_accepted("460", "", every_export("glsl"));
 }
 
 TEST_F(CompiledByGlslang, AGlslExportIsOfHighPrecisionWhateverTheShadersDefault) {
@@ -94,34 +99,12 @@ TEST_F(CompiledByGlslang, AGlslExportIsOfHighPrecisionWhateverTheShadersDefault)
   EXPECT_THAT(tree, Not(HasSubstr("mediump")));
 }
 
-TEST_F(CompiledByGlslang, EveryHlslExportIsAcceptedAndAllOfThemInOneShader) {
-  std::string text, sum = "0.0";
-  for (const ShaderExport& request : every_export("hlsl")) {
-    text += shader_text(request);
-    sum += " + " + calls(request, "float3");
-  }
-  write("all.frag",
-        text +
-            fmt::format(
-                "float4 main() : SV_Target {{ float v = {}; return float4(v, v, v, v); }}\n", sum));
-  EXPECT_EQ(complaints({"-D", "-V", "-e", "main"}), "");
-}
-
 TEST_F(CompiledByGlslang, EveryGlslExportInHalfFloatsIsAccepted) {
-  for (const auto& [name, head, output] :
-       {std::array{"100", "#version 100\nprecision mediump float;\n", "gl_FragColor"},
-        std::array{"130", "#version 130\n", "gl_FragColor"},
-        std::array{"320", "#version 320 es\nprecision mediump float;\nout vec4 colour;\n",
-                   "colour"},
-        std::array{"460", "#version 460\nout vec4 colour;\n", "colour"}}) {
-    files_.clear();
-    for (const ShaderExport& request : every_half_export("glsl"))
-      write(fmt::format("half_{}_{}.frag", name, files_.size()),
-            fmt::format("{}{}void main() {{ {} = vec4({}); }}\n", head, shader_text(request),
-                        output, calls(request, "vec3")));
-    EXPECT_GT(files_.size(), 100u);
-    EXPECT_EQ(complaints({}), "") << name;
-  }
+  const char* const es = "precision mediump float;\n";
+  expect_accepted("100", es, every_half_export("glsl"));
+  expect_accepted("130", "", every_half_export("glsl"));
+  expect_accepted("320 es", es, every_half_export("glsl"));
+  expect_accepted("460", "", every_half_export("glsl"));
 }
 
 TEST_F(CompiledByGlslang, AnExportInHalfFloatsShadesInMediumpAlone) {
@@ -154,22 +137,31 @@ TEST_F(CompiledByGlslang, EveryHlslExportInHalfFloatsIsAcceptedBesideThoseInFloa
   EXPECT_EQ(complaints({"-D", "-V", "-e", "main"}), "");
 }
 
+using Replacements = std::vector<std::pair<const char*, const char*>>;
+
+/// What is exported, from its first function on, with replacements for what patterns find.
+std::string functions_of(const ShaderExport& request, const Replacements& replacements) {
+  std::string text = shader_text(request);
+  text.erase(0, text.find("#ifndef"));
+  for (const auto& [from, to] : replacements) text = std::regex_replace(text, std::regex(from), to);
+  return text;
+}
+
+void expect_the_same(const std::vector<ShaderExport>& some, const std::vector<ShaderExport>& others,
+                     const Replacements& replacements) {
+  ASSERT_EQ(some.size(), others.size());
+  for (std::size_t i = 0; i < some.size(); ++i)
+    EXPECT_EQ(functions_of(some[i], replacements), functions_of(others[i], replacements));
+}
+
 TEST(HalfFloatExports, OfGlslAndHlslAreTheSameButForTheTypes) {
-  const auto functions = [](const ShaderExport& request) {
-    std::string text = shader_text(request);
-    text = text.substr(text.find("#ifndef"));
-    for (const auto& [from, to] :
-         {std::pair{"\n#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision mediump float;\n#endif\n", ""},
-          std::pair{"\\bmediump (float|vec3)\\b", "$1"}, std::pair{"\\bvec3\\b", "float3"},
-          std::pair{"\\bmin16float(3?)\\b", "float$1"},
-          std::pair{"(?:_mediump|_min16float)\\b", ""},
-          std::pair{"(?:_MEDIUMP|_MIN16FLOAT)\\b", ""}})
-      text = std::regex_replace(text, std::regex(from), to);
-    return text;
-  };
-  const auto glsl = every_half_export("glsl"), hlsl = every_half_export("hlsl");
-  ASSERT_EQ(glsl.size(), hlsl.size());
-  for (std::size_t i = 0; i < glsl.size(); ++i) EXPECT_EQ(functions(glsl[i]), functions(hlsl[i]));
+  expect_the_same(every_half_export("glsl"), every_half_export("hlsl"),
+                  {{"\n#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision mediump float;\n#endif\n", ""},
+                   {"\\bmediump (float|vec3)\\b", "$1"},
+                   {"\\bvec3\\b", "float3"},
+                   {"\\bmin16float(3?)\\b", "float$1"},
+                   {"(?:_mediump|_min16float)\\b", ""},
+                   {"(?:_MEDIUMP|_MIN16FLOAT)\\b", ""}});
 }
 
 TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
@@ -181,34 +173,19 @@ TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
 
 TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
   // No compiler of MSL is in Debian. What the text computes, run_test shows of HLSL.
-  const auto functions = [](const ShaderExport& request) {
-    const std::string text = shader_text(request);
-    return std::regex_replace(text.substr(text.find("#ifndef")), std::regex("\\binline "), "");
-  };
-  const std::vector<ShaderExport> msl = every_export("msl"), hlsl = every_export("hlsl");
-  ASSERT_EQ(msl.size(), hlsl.size());
-  for (std::size_t i = 0; i < msl.size(); ++i) {
-    EXPECT_EQ(functions(msl[i]), functions(hlsl[i]));
-    EXPECT_THAT(shader_text(msl[i]),
+  const std::vector<ShaderExport> msl = every_export("msl");
+  expect_the_same(msl, every_export("hlsl"), {std::pair{"\\binline ", ""}});
+  for (const ShaderExport& request : msl)
+    EXPECT_THAT(shader_text(request),
                 HasSubstr("\n#include <metal_stdlib>\nusing namespace metal;\n"));
-  }
   // In a header that several shaders include, each function would be defined more than once.
   EXPECT_FALSE(std::regex_search(shader_text(msl.front()), std::regex("\n(float|float3) ")));
 }
 
 TEST(OslExport, IsTheHlslExportButForTypesAndTheNormalsName) {
   // No compiler of OSL is in Debian. What the text computes, run_test shows of HLSL.
-  const auto functions = [](const ShaderExport& request) {
-    std::string text = shader_text(request);
-    text.erase(0, text.find("#ifndef"));
-    for (const auto& [osl, hlsl] : {std::pair{"\\b(vector|color)\\b(?!s)", "float3"},
-                                    std::pair{"\\bsurface_normal\\b", "normal"}})
-      text = std::regex_replace(text, std::regex(osl), hlsl);
-    return text;
-  };
-  const std::vector<ShaderExport> osl = every_export("osl"), hlsl = every_export("hlsl");
-  ASSERT_EQ(osl.size(), hlsl.size());
-  for (std::size_t i = 0; i < osl.size(); ++i) EXPECT_EQ(functions(osl[i]), functions(hlsl[i]));
+  expect_the_same(every_export("osl"), every_export("hlsl"),
+                  {{"\\b(vector|color)\\b(?!s)", "float3"}, {"\\bsurface_normal\\b", "normal"}});
 }
 
 TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
@@ -263,83 +240,6 @@ TEST(AnExport, HasWhatSeveralModelsShareOnce) {
     EXPECT_NE(text.find(once), std::string::npos) << once;
     EXPECT_EQ(text.find(once), text.rfind(once)) << once;
   }
-}
-
-TEST(AnExport, OfAFixedExponentHasTheCoefficientAsOneNumber) {
-  const Highlight highlight{*find_model("modified_phong"), *find_lobe("gauss"),
-                            Normalisation::kExact, 64};
-  const std::string text = shader_text({*find_shader_language("hlsl"),
-                                        {highlight.model},
-                                        highlight.lobe,
-                                        highlight.normalisation,
-                                        64});
-  EXPECT_THAT(text, HasSubstr(fmt::format("radiance = {:.9g}\n", radiance_coefficient(highlight))));
-  EXPECT_THAT(text, Not(HasSubstr("_coefficient")));
-}
-
-TEST(AnExport, ThatCannotBeMadeSaysWhy) {
-  const auto why_not = [](const char* language, const char* lobe, Normalisation normalisation,
-                          std::optional<double> exponent,
-                          CoefficientFrom coefficient = CoefficientFrom::kComputed,
-                          Fresnel fresnel = Fresnel::kNone) -> std::string {
-    try {
-      shader_text({*find_shader_language(language),
-                   {*find_model("phong_rdf")},
-                   *find_lobe(lobe),
-                   normalisation,
-                   exponent,
-                   coefficient,
-                   fresnel});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
-  const auto exact = Normalisation::kExact;
-  const auto argument = CoefficientFrom::kArgument;
-  EXPECT_THAT(
-      why_not("glsl", "gauss", exact, {}),
-      HasSubstr("'gauss' has no closed form; give the exponent that it is for: --exponent"));
-  EXPECT_THAT(why_not("osl", "schlick", exact, {}), HasSubstr("give the exponent"));
-  EXPECT_EQ(why_not("wgsl", "schlick", exact, {}, argument), "");
-  EXPECT_THAT(why_not("msl", "cosine", exact, 64, argument), HasSubstr("--coefficient"));
-  EXPECT_THAT(why_not("glsl", "cs8", Normalisation::kPaper, 64),
-              HasSubstr("the paper gives no coefficient for the lobe 'cs8'"));
-  EXPECT_THAT(why_not("povray", "cs8", Normalisation::kPaper, {}), HasSubstr("'cs8'"));
-  EXPECT_THAT(why_not("povray", "cs8", exact, 64), HasSubstr("an argument"));
-  EXPECT_THAT(why_not("povray", "cs8", exact, {}, argument), HasSubstr("--coefficient"));
-  EXPECT_THAT(why_not("povray", "cs8", exact, {}, CoefficientFrom::kComputed, Fresnel::kSchlick),
-              HasSubstr("--fresnel"));
-}
-
-TEST(AnExport, InHalfFloatsIsRefusedWhereTheLanguageOrTheLobeHasNone) {
-  const auto why_not = [](const char* language, ShaderPrecision precision,
-                          std::optional<double> exponent, const LobeId& lobe) -> std::string {
-    ShaderExport request;
-    request.language = *find_shader_language(language);
-    request.models = {*find_model("phong_rdf")};
-    request.lobe = lobe;
-    request.exponent = exponent;
-    request.precision = precision;
-    try {
-      shader_text(request);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kUsage);
-      return error.what();
-    }
-    return "";
-  };
-  const LobeId cosine = *find_lobe("cosine");
-  const auto mediump = ShaderPrecision::kMediump, min16float = ShaderPrecision::kMin16Float;
-  EXPECT_EQ(why_not("glsl", mediump, {}, cosine), "");
-  EXPECT_EQ(why_not("hlsl", min16float, {}, cosine), "");
-  EXPECT_THAT(why_not("hlsl", mediump, {}, cosine), HasSubstr("not in HLSL"));
-  EXPECT_THAT(why_not("glsl", min16float, {}, cosine), HasSubstr("mediump is GLSL's"));
-  for (const char* language : {"wgsl", "msl", "osl"})
-    EXPECT_THAT(why_not(language, mediump, {}, cosine), HasSubstr("float32 alone"));
-  EXPECT_THAT(why_not("povray", mediump, {}, cosine), HasSubstr("--precision"));
-  EXPECT_THAT(why_not("glsl", mediump, 1e5, cosine), HasSubstr("at most 65504"));
-  EXPECT_THAT(why_not("glsl", mediump, {}, formula_lobe("c^n")), HasSubstr("formula"));
 }
 
 TEST(AnExport, WithTheCoefficientAsAnArgumentHasItsFunctionButDoesNotCallIt) {

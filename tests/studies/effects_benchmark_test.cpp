@@ -48,27 +48,15 @@ Scene plain() {
   return scene;
 }
 
-TEST(TheSceneWithEverything, CallsForEveryEffectOfTheCatalogue) {
-  EXPECT_THAT(effects_that_are(false, make_plan(everything(), kAsCalledFor)), testing::IsEmpty());
-}
-
-TEST(LeavingOut, SwitchesOffThatEffectInThePlan) {
-  for (const std::string& name : effects_that_are(true, make_plan(everything(), kAsCalledFor))) {
-    const Without left = without(name, everything());
-    const Plan plan = make_plan(left.scene, kAsCalledFor, {}, left.experiment);
-    EXPECT_THAT(effects_that_are(false, plan), testing::Contains(name));
-    EXPECT_NE(in_place_of(name), "");
-  }
-}
-
 TEST(LeavingOut, CostsThatEffectsWorkAndChangesThePicture) {
   const Scene scene = small(everything());
   const RenderResult all = render(scene, {});
   for (std::size_t i = 0; i < all.plan.effects.size(); ++i) {
     const std::string name(all.plan.effects[i].name);
     const RenderResult left = picture(without(name, scene));
-    EXPECT_GT(all.work.of_effect[i], 0u) << name;
+    EXPECT_GT(all.work.of_effect[i], 0u) << "the scene with everything calls for " << name;
     EXPECT_EQ(left.work.of_effect[i], 0u) << name;
+    EXPECT_NE(in_place_of(name), "") << name;
     EXPECT_FALSE(std::ranges::equal(all.image.values(), left.image.values())) << name;
   }
 }

@@ -42,6 +42,19 @@ class ShaderCheck : public NeedsShaderRunner {
     request.time_limit = kHang;
     return request;
   }
+  /// For the function that is exported of the model.
+  static shader_check::Request request_of_export(const char* model,
+                                                 ShaderText language = ShaderText::kGlsl) {
+    shader_check::Request request = request_of(model, "");
+    request.language = language;
+    request.text = shader_text({*find_shader_language(kShaderTextNames[std::size_t(language)]),
+                                {request.highlight.model},
+                                request.highlight.lobe,
+                                Normalisation::kExact,
+                                {}});
+    request.function = function_name(request.highlight);
+    return request;
+  }
   static std::string why_not(const shader_check::Request& request) {
     try {
       shader_check::check_shader(request);
@@ -70,15 +83,8 @@ TEST_F(ShaderCheck, FindsEveryPlantedMistakeByName) {
 TEST_F(ShaderCheck, PassesTheExportedFunctionOfEveryModelInBothLanguages) {
   for (const ModelId model : all_models())
     for (const ShaderText language : {ShaderText::kGlsl, ShaderText::kHlsl}) {
-      shader_check::Request request = request_of(info(model).name.data(), "");
-      request.language = language;
+      shader_check::Request request = request_of_export(info(model).name.data(), language);
       request.api = language == ShaderText::kHlsl ? ShaderApi::kVulkan : ShaderApi::kEgl;
-      request.text = shader_text({*find_shader_language(kShaderTextNames[std::size_t(language)]),
-                                  {model},
-                                  request.highlight.lobe,
-                                  Normalisation::kExact,
-                                  {}});
-      request.function = function_name(request.highlight);
       const Check check = shader_check::check_shader(request);
       EXPECT_EQ(check.record.verdict, "passes") << shader_check::report_text(check.record);
       EXPECT_EQ(check.record.oddities.hard_nonfinite, 0u) << request.function;
@@ -108,13 +114,7 @@ TEST_F(ShaderCheck, PassesATextbookPowerAsFarAsFloat32KnowsItsCosine) {
 }
 
 TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
-  shader_check::Request request = request_of("modified_phong", "");
-  request.text = shader_text({*find_shader_language("glsl"),
-                              {request.highlight.model},
-                              request.highlight.lobe,
-                              Normalisation::kExact,
-                              {}});
-  request.function = function_name(request.highlight);
+  shader_check::Request request = request_of_export("modified_phong");
   for (const records::ShaderEnergy& energy : shader_check::check_shader(request).record.energy)
     if (energy.incidence_degrees == 0) {
       EXPECT_NEAR(energy.energy, 1, 2e-3) << energy.exponent;
@@ -175,13 +175,7 @@ TEST_F(ShaderCheck, CountsWhatIsNoNumberAndWhatIsOutsideTheSupport) {
 }
 
 TEST_F(ShaderCheck, MeasuresHalfFloatsInstructionsAndTimeBesideOurs) {
-  shader_check::Request request = request_of("blinn_phong_ndf", "");
-  request.text = shader_text({*find_shader_language("glsl"),
-                              {request.highlight.model},
-                              request.highlight.lobe,
-                              Normalisation::kExact,
-                              {}});
-  request.function = function_name(request.highlight);
+  shader_check::Request request = request_of_export("blinn_phong_ndf");
   request.costs = true;
   const Check check = shader_check::check_shader(request);
   EXPECT_THAT(check.record.remarks, testing::IsEmpty());

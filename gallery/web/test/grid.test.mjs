@@ -250,12 +250,6 @@ test('what is not as the farm wrote it is first, marked in words, and has its re
   }
 });
 
-test('without script the grid and its links are there', async () => {
-  const page = await open(browser, fileUrl(site) + 'index.html', { javaScriptEnabled: false });
-  assert.equal(await page.locator('td.cell a img').count(), 11);
-  await close(page);
-});
-
 test('axe finds nothing in the grid and in the list, in light, in dark and in forced colours', async () => {
   for (const colours of [{ colorScheme: 'light' }, { colorScheme: 'dark' }, { forcedColors: 'active' }]) {
     for (const hash of ['', '#order=worst&find=blinn']) {

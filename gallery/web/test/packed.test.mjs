@@ -1,6 +1,6 @@
 // A site in few files: thumbnails in the grid, and one page for all cells.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { spawnSync } from 'node:child_process';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
@@ -25,17 +25,11 @@ after(async () => { await browser?.close(); await server?.stop(); });
 
 const cellAt = (id, more = '', base = fileUrl(site)) => open(browser, `${base}cell.html#${new URLSearchParams({ cell: id })}${more}`);
 const opened = (page) => page.locator('.viewer').waitFor();
-const files = (place) => readdirSync(place, { recursive: true }).map(String).filter((f) => statSync(path.join(place, f)).isFile());
 /** Every picture of this kind is there and has pixels. */
 const arePainted = (page, selector) => page.waitForFunction((s) => {
   const all = [...document.querySelectorAll(s)];
   return all.length > 0 && all.every((image) => image.complete && image.naturalWidth > 1);
 }, selector);
-
-test('36 cells are few files, and no folder each', () => {
-  assert.ok(files(site).length < 40, files(site).join(' '));
-  assert.ok(!existsSync(path.join(site, 'cells')));
-});
 
 for (const from of ['file', 'server']) {
   test(`the grid shows thumbnails, and a click opens the cell, from a ${from}`, async () => {
@@ -147,21 +141,6 @@ test('without script the index names the worst cells, and a cell asks for the sc
   await page.goto(fileUrl(site) + 'cell.html');
   assert.match(await page.locator('main').textContent(), /needs its script/);
   await close(page);
-});
-
-test('publishing again touches no file, and another layout leaves nothing of the one before', () => {
-  const place = path.join(directory, 'again'), publish = (...options) => lobelia('gallery', run, '-o', place, '--metrics-only', ...options);
-  const times = () => Object.fromEntries(files(place).map((f) => [f, statSync(path.join(place, f)).mtimeMs]));
-  publish('--packed');
-  const before = times();
-  publish('--packed');
-  assert.deepEqual(times(), before);
-  publish();
-  assert.ok(!existsSync(path.join(place, 'packed')) && !existsSync(path.join(place, 'cell.html')));
-  assert.deepEqual(files(place).sort(), files(old).sort());
-  publish('--packed');
-  assert.deepEqual(Object.keys(before).sort(), files(place).sort());
-  assert.ok(!existsSync(path.join(place, 'cells')));
 });
 
 test('float pictures have no place in it', () => {

@@ -1,6 +1,4 @@
 // An engine that is not there, or is there and does not work.
-#include <sys/stat.h>
-
 #include "failing_farm.hpp"
 #include "tests/json.hpp"
 
@@ -10,26 +8,12 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Every file under a directory with its bytes, its inode and its time of change.
-std::map<std::string, std::string> everything_in(const fs::path& directory) {
-  std::map<std::string, std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    struct stat status {};
-    ::lstat(entry.path().c_str(), &status);
-    found[entry.path().lexically_relative(directory).string()] =
-        fmt::format("{} {}.{} {}", status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec,
-                    entry.is_regular_file() ? read_file(entry.path(), 1 << 28) : "");
-  }
-  return found;
-}
-
 class AbsentEngine : public FailingFarm {
  protected:
   /// POV-Ray is looked for in $PATH, and whatever else a shell needs is there.
   FarmRun run_with_path(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"farm", "grid.xml", "-o", "out", "--cache", "cache"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_command(arguments, {"PATH=" + (root() / "bin").string() + ":" + without_povray()});
+    return run_command(command(more),
+                       {"PATH=" + (root() / "bin").string() + ":" + without_povray()});
   }
   /// The programs that the fake needs, and no POV-Ray.
   std::string without_povray() const {
@@ -64,9 +48,10 @@ TEST_F(AbsentEngine, KeepsWhatItMadeBeforeInCellsAndInTheFarmsRecord) {
                                           "it made before is kept"));
     EXPECT_THAT(without.output, HasSubstr("4 cells: 0 failed, 0 differ, 4 pass"));
     EXPECT_EQ(without.rendered, 0u);
-    EXPECT_EQ(everything_in(out() / "cells"), cells);
+    EXPECT_THAT(differences(cells, everything_in(out() / "cells")), IsEmpty());
     EXPECT_EQ(engine().at("state"), "absent");
     EXPECT_EQ(engine().at("available"), false);
+    EXPECT_EQ(engine().at("install"), "sudo apt-get install povray");
     EXPECT_EQ(engine().at("version"), before.at("version"));
   }
   EXPECT_THAT(run_with_path({"--dry-run"}).output, HasSubstr("16 jobs: 0 to be done"));
@@ -106,12 +91,15 @@ TEST_F(AbsentEngine, KeepsItsFilesThoughTheCacheIsLost) {
     EXPECT_TRUE(fs::exists(out() / "cells" / "n16" / file)) << file;
 }
 
-TEST_F(AbsentEngine, IsAnErrorBeforeAnythingIsMadeIfEnginesAreRequired) {
+TEST_F(AbsentEngine, IsAnErrorBeforeAnythingIsMadeIfEnginesAreRequiredOrItsProgramIsGiven) {
   const FarmRun required = run_with_path({"--require-engines"});
   EXPECT_EQ(required.exit_code, 5) << required.output;
   EXPECT_EQ(required.output,
             "lobelia: POV-Ray is absent: no program 'povray' in $PATH; to get it: sudo apt-get "
             "install povray\n");
+  const FarmRun given = run_with_path({"--povray", "/no/such/povray"});
+  EXPECT_EQ(given.exit_code, 5) << given.output;
+  EXPECT_THAT(given.output, HasSubstr("/no/such/povray"));
   EXPECT_FALSE(fs::exists(out()));
   EXPECT_FALSE(fs::exists(cache()));
   EXPECT_EQ(run_with_path().exit_code, 0);
@@ -139,8 +127,8 @@ TEST_F(AbsentEngine, ThatIsBrokenEndsTheFarmInOneLineAndChangesNothing) {
       EXPECT_EQ(run.output.find('\n'), run.output.size() - 1) << "one line";
     }
   }
-  EXPECT_EQ(everything_in(out()), before);
-  EXPECT_EQ(everything_in(cache()), cached);
+  EXPECT_THAT(differences(before, everything_in(out())), IsEmpty());
+  EXPECT_THAT(differences(cached, everything_in(cache())), IsEmpty());
   EXPECT_FALSE(fs::exists(root() / "site"));
 }
 

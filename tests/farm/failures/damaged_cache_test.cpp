@@ -1,12 +1,10 @@
 // What others, and disks, do to a cache.
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <fstream>
-#include <random>
 
 #include "failing_farm.hpp"
-#include "tests/json.hpp"
-#include "tests/more_samples.hpp"
 
 namespace lobelia {
 namespace {
@@ -60,9 +58,12 @@ TEST_F(DamagedCache, ThatNobodyNoticesIsFoundByVerifyAndMadeAgain) {
   flip_a_bit(file);
   fs::last_write_time(file, time);
   EXPECT_EQ(run().rendered, 0u) << "its age and size are as they were";
-  const FarmRun verify = run_command({"farm", "verify", "out", "--remove"});
-  EXPECT_THAT(verify.output, HasSubstr("damaged: "));
-  EXPECT_THAT(verify.output, HasSubstr("povray.exr has another content"));
+  // Only the last one takes it away.
+  for (const char* option : {"-q", "-q", "--remove"}) {
+    const FarmRun verify = run_command({"farm", "verify", "out", option});
+    EXPECT_THAT(verify.output, HasSubstr("damaged: "));
+    EXPECT_THAT(verify.output, HasSubstr("povray.exr has another content"));
+  }
   expect_mended(run(), 1);
 }
 
@@ -101,47 +102,6 @@ TEST_F(DamagedCache, WithAnythingInPlaceOfAResultHasNoneThere) {
   });
 }
 
-TEST_F(DamagedCache, BelievesNoHostileRecord) {
-  std::vector<std::pair<fs::path, std::string>> hostile;
-  for (const char* cell : {"n8", "n16", "n32", "n64"})
-    for (const char* job : {"render", "reference-povray", "compare-povray", "profile"}) {
-      const fs::path file = result_of(cell, job) / "result.json";
-      const Json whole = Json::parse(read_file(file, 1 << 20));
-      for (const char* text : {"", "null", "[]", "{}", "12", "{\"kind\": \"result\"}"})
-        hostile.emplace_back(file, text);
-      hostile.emplace_back(file, std::string(100000, '['));
-      for (const auto& [key, value] : whole.items()) {
-        Json without = whole;
-        without.erase(key);
-        hostile.emplace_back(file, without.dump());
-        for (const Json& other : {Json(nullptr), Json(-1), Json("../../x"), Json::array({1})}) {
-          Json record = whole;
-          record[key] = other;
-          hostile.emplace_back(file, record.dump());
-        }
-      }
-    }
-  // Some of every file at a time.
-  constexpr std::size_t kRounds = 12;
-  std::mt19937 random(1);
-  std::ranges::shuffle(hostile, random);
-  for (std::size_t round = 0; round < kRounds && !HasFailure(); ++round) {
-    if (is_left_out(round, kRounds)) continue;
-    for (std::size_t i = round; i < hostile.size(); i += kRounds)
-      replace(hostile[i].first, hostile[i].second);
-    const FarmRun second = run();
-    EXPECT_EQ(second.rendered, pictures()) << "every record was wrong";
-    expect_mended(second);
-  }
-}
-
-TEST_F(DamagedCache, OfWhichAllIsTakenAwayByGcIsFilledAgain) {
-  const FarmRun gc = run_command({"farm", "gc", "cache", "--max-size", "0"});
-  EXPECT_EQ(gc.exit_code, 0) << gc.output;
-  EXPECT_EQ(cached_pictures(), 0u);
-  expect_mended(run(), pictures());
-}
-
 TEST_F(DamagedCache, DoesNotMatterToCellsThatAreDamagedToo) {
   for (
       const char* text :
@@ -160,7 +120,7 @@ TEST_F(DamagedCache, DoesNotMatterToCellsThatAreDamagedToo) {
   }
 }
 
-TEST_F(DamagedCache, ThatIsNoneIsSaidToBeNone) {
+TEST_F(DamagedCache, ThatIsNoneOrHasAnotherLayoutIsNotUsed) {
   const auto refused = [&](const std::string& path, int code) {
     const FarmRun farm = run_command({"farm", "grid.xml", "-o", "other", "--cache", path});
     EXPECT_EQ(farm.exit_code, code) << path << ": " << farm.output;
@@ -172,6 +132,9 @@ TEST_F(DamagedCache, ThatIsNoneIsSaidToBeNone) {
   fs::create_directories(root() / "full" / "of");
   refused("full", 3);
   EXPECT_FALSE(fs::exists(root() / "full" / "results"));
+  fs::create_directory(root() / "later");
+  write_file(root() / "later" / "lobelia-cache", "2\n");
+  refused("later", 3);
 }
 
 TEST_F(DamagedCache, AndAFarmAreNotPutWhereTheyWouldBeTakenForEachOthersParts) {

@@ -117,6 +117,18 @@ std::vector<std::string> differences(const Results& a, const Results& b) {
   return names;
 }
 
+Results everything_in(const fs::path& directory) {
+  Results found;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    struct stat status {};
+    ::lstat(entry.path().c_str(), &status);
+    found[entry.path().lexically_relative(directory).string()] = fmt::format(
+        "{:o} {} {}.{} {}", status.st_mode, status.st_ino, status.st_mtim.tv_sec,
+        status.st_mtim.tv_nsec, S_ISREG(status.st_mode) ? hex(sha256_of_file(entry.path())) : "");
+  }
+  return found;
+}
+
 RunningFarm::RunningFarm(std::vector<std::string> arguments, const fs::path& directory,
                          const std::vector<std::string>& environment, const fs::path& output) {
   static int count = 0;

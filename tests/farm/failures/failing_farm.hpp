@@ -26,6 +26,9 @@ Results results_of(const fs::path& farm_directory);
 /// Names of files that are not the same in both.
 std::vector<std::string> differences(const Results& a, const Results& b);
 
+/// Everything below a directory, by its path there: its kind, its inode, when it was changed, and its content.
+Results everything_in(const fs::path& directory);
+
 /// The program at work.
 class RunningFarm {
  public:

@@ -1,6 +1,5 @@
 // A farm that is killed at any moment.
 #include <signal.h>
-#include <sys/stat.h>
 
 #include <random>
 #include <thread>
@@ -54,26 +53,6 @@ TEST_F(KilledFarm, AtAnyWriteLosesNothingButTheResultsThatWereNotThereYet) {
   EXPECT_GE(killed, std::size_t(kMoments) - 4) << "the last calls may not come in every run";
 }
 
-TEST_F(KilledFarm, AtAnyMomentGoesOnFromWhatWasThere) {
-  undisturbed();
-  const auto before = std::chrono::steady_clock::now();
-  ASSERT_EQ(run().exit_code, 0);
-  const auto whole = std::chrono::steady_clock::now() - before;
-  constexpr int kMoments = 8;
-  for (int i = 0; i < kMoments && !HasFailure(); ++i) {
-    SCOPED_TRACE(fmt::format("killed at {} of {}", i, kMoments));
-    forget_everything();
-    {
-      RunningFarm farm(command(), root());
-      std::this_thread::sleep_for(whole * (i + 1) / kMoments);
-      farm.signal(SIGKILL);
-      farm.wait();
-    }
-    const std::size_t there = cached_pictures();
-    expect_mended(run(), pictures() - there);
-  }
-}
-
 TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
   undisturbed();
   std::mt19937 random(1);
@@ -83,27 +62,6 @@ TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
     farm.signal(SIGKILL);
     farm.wait();
   }
-  expect_mended(run());
-}
-
-TEST_F(KilledFarm, LeavesNoEngineBehindThatHangs) {
-  undisturbed();
-  const fs::path queue = root() / "queue";
-  ASSERT_EQ(::mkfifo(queue.c_str(), 0600), 0);
-  fake_povray("read nothing < '" + queue.string() + "'");  // waits for a writer that never comes
-  RunningFarm farm(command({"--no-progress-limit", "0"}), root());
-  std::vector<int> engines, before;
-  // The same ones at two looks: a shell of theirs that ends by itself is none that hangs.
-  do {
-    before = engines;
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    engines = farm.engines("povray");
-  } while ((engines.size() < 2 || engines != before) && !farm.has_ended());
-  EXPECT_GE(engines.size(), 2u) << farm.output();
-  farm.signal(SIGKILL);
-  EXPECT_EQ(farm.wait(), 128 + SIGKILL);
-  EXPECT_TRUE(end_soon(engines));
-  fake_povray();
   expect_mended(run());
 }
 

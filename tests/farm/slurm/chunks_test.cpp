@@ -11,6 +11,8 @@
 #include <random>
 #include <set>
 
+#include "tests/more_samples.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -43,9 +45,11 @@ Case random_case(unsigned seed) {
   return result;
 }
 
-constexpr unsigned kCases = 1500;
+const unsigned kCases = 1500u * unsigned(more_samples());
 
-TEST(Chunks, HoldEachJobOnceInTheOrderItCame) {
+TEST(Chunks, HoldEachJobOnceAndAreNeitherTooManyNorTooLight) {
+  bool bound_was_reached = false;
+  int several = 0;
   for (unsigned seed = 0; seed < kCases; ++seed) {
     const Case made = random_case(seed);
     std::vector<std::size_t> all;
@@ -58,31 +62,19 @@ TEST(Chunks, HoldEachJobOnceInTheOrderItCame) {
     std::vector<std::size_t> wanted(made.jobs.size());
     std::iota(wanted.begin(), wanted.end(), 0);
     ASSERT_EQ(all, wanted) << seed;
-  }
-}
-
-TEST(Chunks, AreNoMoreThanTheArrayMayHaveAndTheCostliestComesFirst) {
-  bool bound_was_reached = false;
-  for (unsigned seed = 0; seed < kCases; ++seed) {
-    const Case made = random_case(seed);
     ASSERT_LE(made.chunks.size(), made.rule.most_chunks) << seed;
     bound_was_reached |= made.chunks.size() == made.rule.most_chunks && made.rule.most_chunks > 9;
-    for (std::size_t i = 1; i < made.chunks.size(); ++i)
-      ASSERT_GE(made.cost(i - 1), made.cost(i) * (1 - 1e-12)) << seed;
-  }
-  EXPECT_TRUE(bound_was_reached);
-}
-
-TEST(Chunks, HaveTheLeastWorkUnlessAllTogetherHaveNot) {
-  int several = 0;
-  for (unsigned seed = 0; seed < kCases; ++seed) {
-    const Case made = random_case(seed);
     if (made.chunks.size() == 1) continue;
     ++several;
-    for (std::size_t i = 0; i < made.chunks.size(); ++i)
+    for (std::size_t i = 0; i < made.chunks.size(); ++i) {
       ASSERT_GE(made.cost(i), made.rule.least_seconds) << seed;
+      // The costliest comes first.
+      ASSERT_TRUE(i == 0 || made.cost(i - 1) >= made.cost(i) * (1 - 1e-12)) << seed;
+    }
   }
+  EXPECT_TRUE(bound_was_reached);
   EXPECT_GT(several, int(kCases) / 4);
+  EXPECT_TRUE(make_chunks({}, {}).empty());
 }
 
 TEST(Chunks, SpreadABatchOverNoMoreThanItsCostFills) {
@@ -129,17 +121,6 @@ TEST(Chunks, AreFourForASlotWhereWorkAllows) {
   EXPECT_EQ(make_chunks(jobs, {.slots = 1}).size(), 33u);     // 60 s each
   EXPECT_EQ(make_chunks(jobs, {.slots = 100}).size(), 200u);  // 10 s each, no less
   EXPECT_EQ(make_chunks(jobs, {.slots = 100, .most_chunks = 50}).size(), 50u);
-}
-
-TEST(Chunks, OfLittleWorkAreOne) {
-  const std::vector<SlurmJob> jobs(10, {"job", 0, 0.5, "one"});
-  EXPECT_EQ(make_chunks(jobs, {.slots = 100}).size(), 1u);
-  EXPECT_TRUE(make_chunks({}, {}).empty());
-}
-
-TEST(Chunks, AreTheSameForTheSameJobs) {
-  for (unsigned seed = 0; seed < 50; ++seed)
-    EXPECT_EQ(random_case(seed).chunks, random_case(seed).chunks);
 }
 
 TEST(Chunks, TakeAnyNumberForACost) {

@@ -56,13 +56,6 @@ TEST_F(FakeSlurmEndings, AtTheTimeLimitGetTwiceTheTime) {
   EXPECT_EQ(record["arrays"][2]["time"], "2:00:00");
 }
 
-TEST_F(FakeSlurmEndings, AtATimeLimitThatWasARawOptionGetTwiceThat) {
-  options.slurm.raw = {"--time=90"};
-  elements_end("0|TIMEOUT|TimeLimit|n1", "--time=3:00:00");
-  EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
-  EXPECT_EQ(arrays().back().find("--time=90"), std::string::npos);
-}
-
 TEST_F(FakeSlurmEndings, AtTheTimeLimitGetNoMoreThanThePartitionHas) {
   options.slurm.time = "60";
   partition("MaxTime=01:30:00 MaxMemPerNode=UNLIMITED");
@@ -167,17 +160,6 @@ TEST_F(FakeSlurmEndings, ThatSomebodyCancelledAreNotSubmittedAgainstThatWill) {
     EXPECT_THAT(said, HasSubstr("Nothing more is submitted: 1 element: "));
   }
   EXPECT_THAT(said, HasSubstr("deadline missed (--deadline)"));
-}
-
-TEST_F(FakeSlurmEndings, ThatWereRequeuedAndHeldAreWaitedForAndThenToldOf) {
-  options.stall = std::chrono::milliseconds(300);
-  fake("squeue", R"(
-case "$*" in *--me*) exit 0;; esac
-n=$(cat "$d/asked" 2>/dev/null || echo 0); echo $((n + 1)) > "$d/asked"
-if [ $n -lt 3 ]; then echo '0|REQUEUED|None|'; else echo '0|REQUEUE_HOLD|job_requeued_in_held_state|'; fi)");
-  const auto [code, message] = failure();
-  EXPECT_EQ(code, ExitCode::kEngine);
-  EXPECT_THAT(message, HasSubstr("scontrol release 100"));
 }
 
 // ---- nodes

@@ -1,6 +1,5 @@
 #include "farm/slurm/slurm_answers.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,7 +10,6 @@
 namespace lobelia {
 namespace {
 
-using testing::HasSubstr;
 using Lines = std::vector<std::string>;
 using State = SlurmElement::State;
 
@@ -48,9 +46,9 @@ TEST(SlurmAnswers, OfSqueueAreElementsWithStateReasonAndNodes) {
   const auto elements = parse_elements(Lines{
       "0|RUNNING|None|n1", "7|PENDING|Resources|", "[8-9%2]|PENDING|launch failed requeued held|",
       "squeue: warning: something", "3|COMPLETED|None|n2", "4|NODE_FAIL|None|n[1-2]",
-      "5|BRAND_NEW|None|n1", "6|PENDING|odd | reason|"});
+      "5|BRAND_NEW|None|n1", "6|PENDING|odd | reason|", "1|REQUEUED|None|"});
   ASSERT_TRUE(elements);
-  ASSERT_EQ(elements->size(), 7u);
+  ASSERT_EQ(elements->size(), 8u);
   EXPECT_EQ(elements->at(0).state, State::kRunning);
   EXPECT_EQ(elements->at(0).nodes, "n1");
   EXPECT_EQ(elements->at(1).reason, "Resources");
@@ -60,6 +58,7 @@ TEST(SlurmAnswers, OfSqueueAreElementsWithStateReasonAndNodes) {
   EXPECT_EQ(elements->at(4).state, State::kEnded);
   EXPECT_EQ(elements->at(5).state, State::kRunning);  // unknown: it goes on
   EXPECT_EQ(elements->at(6).reason, "odd | reason");
+  EXPECT_EQ(elements->at(7).state, State::kPending);
   EXPECT_TRUE(parse_elements({})->empty());
 }
 

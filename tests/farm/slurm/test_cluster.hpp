@@ -39,7 +39,6 @@ class TestCluster {
   }
   /// kill -9 of everything on it, as if the power were gone.
   void kill_node(const std::string& node) const { run({"kill-node"}, node); }
-  void start_node(const std::string& node) const { run({"start-node"}, node); }
   void stop_controller() const { run({"stop-controller"}); }
   void start_controller() const { run({"start-controller"}); }
   void drain(const std::string& nodes) const {

@@ -47,8 +47,6 @@ while read -r name seconds; do
   case $name in
     # Too long in its first round, unless somebody ends it.
     slow*) [ "$(grep -c "^$name\$" "$results/../started")" -gt 1 ] || sleep 3600;;
-    # 150 MB: what tail keeps. Where it may not, it waits for its end.
-    hungry*) { head -c 150000000 /dev/zero; [ "$SLURM_MEM_PER_NODE" -ge 200 ] || sleep 3600; } | tail -c 150000000 > /dev/null;;
     # A node that cannot do it.
     picky*) if [ "$SLURMD_NODENAME" = n1 ] || [ "$SLURMD_NODENAME" = n2 ]; then
         mkdir -p "$3/reports"

@@ -14,6 +14,7 @@
 #include "renderer/render.hpp"
 #include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene.hpp"
+#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -143,7 +144,7 @@ Scene lights_of(Scene scene) {
 
 /// In how many pixels a picture is another's.
 struct Tally {
-  int lit = 0, dark = 0, beyond = 0;
+  int lit = 0, dark = 0;
   void expect(float value, float expected, int x, int y) {
     EXPECT_EQ(value, expected) << x << ", " << y;
     (expected > 0 ? lit : dark) += 1;
@@ -354,25 +355,18 @@ TEST(ABallOfLightAroundASphereOfItsSize, ShinesAsIfTheSphereWereNotThereAndIsSee
   EXPECT_EQ(bulb.dark, 0);
 }
 
-double mean(const Image& image) {
-  double sum = 0;
-  for (const float v : image.values()) sum += v;
-  return sum / double(image.values().size());
-}
-
 /// As in a room: mirrors and inter-reflection show the lamp and what it lies on.
 Scene room() {
   Scene scene;
   scene.camera = {{0, 0.2, 6}, {0, 0.8, 0}, {0, 1, 0}, 60};
   scene.film = {48, 48};
   scene.sampler.sample_count = 64;
-  Material matt, mirror;
-  matt.highlight = {*find_model("modified_phong"), *find_lobe("cosine"), {}, 20};
-  matt.specular_reflectance = {0.3, 0.3, 0.3};
-  matt.diffuse_reflectance = {0.5, 0.5, 0.5};
-  mirror = matt;
+  Material plain = matt(0.5);
+  plain.highlight = {*find_model("modified_phong"), *find_lobe("cosine"), {}, 20};
+  plain.specular_reflectance = {0.3, 0.3, 0.3};
+  Material mirror = plain;
   mirror.mirror_reflectance = {0.6, 0.6, 0.6};
-  scene.materials = {matt, mirror};
+  scene.materials = {plain, mirror};
   scene.spheres = {{{0, 0, 0}, 1, 1}, {{1.4, 2, -0.5}, 0.6, 0}};
   scene.planes = {{{0, 3, 0}, {0, -1, 0}, 0, 0, 1}, {{0, -1, 0}, {0, 1, 0}, 0, 0, 1}};
   return scene;
@@ -430,10 +424,7 @@ TEST(ALightOnASurface, MakesTheSamePictureBitForBitWithAllEffectsWhereNothingIsR
                     random.lamp(body.center + body.radius * random.unit())};
     EXPECT_FALSE(find_contacts(scene)[0].empty());
     EXPECT_FALSE(find_contacts(scene)[1].empty());
-    RenderOptions all;
-    all.effects = EffectPolicy::kAll;
-    const Image planned = render(scene, {}).image, forced = render(scene, all).image;
-    EXPECT_TRUE(std::ranges::equal(planned.values(), forced.values()));
+    EXPECT_TRUE(same(render(scene, {}).image, with_all(scene).image));
   });
 }
 

@@ -90,26 +90,5 @@ TEST(EverySampler, EstimatesTheDirectionalAlbedo) {
     }
 }
 
-TEST(EverySample, WeighsAtMostAsMuchAsOneInTheMiddleOfANarrowLobe) {
-  // radiance / pdf is the albedo of a mirror where the pdf follows the lobe; what is more comes from
-  // the part of the lobe that is below the horizon, or that the density of some lobes adds, or shadowing.
-  const Frame frame;
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  for (const Highlight& h : highlights(every_model(), kExponents)) {
-    const Reflector reflector({"", h, {1, 1, 1}, {}});
-    const double bound = (info(h.model).angle == LobeAngle::kHalfVector ? 4 : 1) * 2 * kPi *
-                         radiance_coefficient(h) * largest_shadowing(h.model, h.exponent) /
-                         prepare(h.lobe, h.exponent).density(0);
-    for (const double degrees : kSomeIncidences)
-      for (int i = 0; i < 20; ++i) {
-        const double u = uniform(random), v = uniform(random);
-        const auto sample = reflector.sample(frame.normal, frame(radians(degrees), 1), 0, u, v);
-        if (!sample) continue;
-        EXPECT_LE(sample->radiance.r / sample->pdf, bound * (1 + 1e-9)) << text(h);
-      }
-  }
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -6,9 +6,7 @@
 #include <regex>
 
 #include "core/error.hpp"
-#include "renderer/albedo.hpp"
 #include "renderer/operation_count.hpp"
-#include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/laws/cases.hpp"
 #include "tests/renderer/laws/chi_square.hpp"
@@ -51,18 +49,6 @@ TEST(LobeByItsFormula, HasTheCoefficientsOfTheCatalogues) {
     EXPECT_NEAR(radiance_coefficient(formula) / radiance_coefficient(h), 1,
                 1e-11 + rounding(h.lobe, h.exponent))
         << text(h);
-  }
-}
-
-TEST(LobeByItsFormula, HasTheEnergyOfTheCatalogues) {
-  for (const Highlight& h : highlights(every_model(), std::array{8.0, 1024.0})) {
-    Highlight formula = h;
-    formula.lobe = as_formula(h.lobe);
-    for (const double degrees : {0.0, 60.0, 85.0}) {
-      const double energy = directional_albedo(h, radians(degrees));
-      EXPECT_NEAR(directional_albedo(formula, radians(degrees)), energy, 1e-9 * energy)
-          << text(h) << " at " << degrees;
-    }
   }
 }
 
@@ -159,19 +145,6 @@ TEST(LobeByItsFormula, DrawsThePicturesOfTheCatalogues) {
           EXPECT_LE(worst / peak, precision ? 2e-4 : 2e-7) << name << " " << info(lobe).name;
         }
       }
-}
-
-TEST(LobeByItsFormula, IsWrittenAndReadWithItsScene) {
-  Scene scene = canonical_scene("two_spheres");
-  scene.materials[0].highlight.lobe = formula_lobe("pow(max(0, 1 - n*s/16), 16)");
-  const std::string xml = scene_to_xml(scene);
-  EXPECT_THAT(xml, testing::HasSubstr(
-                       "    <string name=\"lobe\" value=\"expression\"/>\n"
-                       "    <string name=\"formula\" value=\"max(0, 1 - n * s / 16)^16\"/>\n"));
-  const Scene back = parse_scene(xml, "s.xml", ".");
-  EXPECT_EQ(back.materials[0].highlight.lobe, scene.materials[0].highlight.lobe);
-  EXPECT_EQ(scene_to_xml(back), xml);
-  EXPECT_NE(back.materials[0].highlight.lobe, formula_lobe("max(0, 1 - n*s/8)^8"));
 }
 
 TEST(LobeByItsFormula, CountsTheOperationsOfItsTree) {

@@ -79,22 +79,12 @@ TEST(Fused, EveryHighlightPrecisionLightAndEffectIsBitForBitThePictureOfTheKerne
 }
 
 TEST(Fused, AnySizeOfPictureIsTheSame) {
-  for (const int width : {1, 2, 7, 8, 15, 16, 17, 31, 33, 127, 128, 129, 143, 257, 300})
+  for (const int width : {1, 2, 7, 8, 15, 16, 17, 31, 33, 127, 128, 129, 143, 300, 513, 1031})
     for (const int height : {1, 2, 9, 64}) {
       EXPECT_EQ(difference(one_sphere(width, height)), "") << width << " x " << height;
       Scene wide = one_sphere(width, height);
       wide.camera.fov_degrees = 150;
       EXPECT_EQ(difference(wide), "") << width << " x " << height;
-    }
-}
-
-TEST(Fused, AFilmAsideIsTheSame) {
-  for (const double x : {-0.31, 0.0, 0.77})
-    for (const double y : {-2.0, 0.0, 0.4}) {
-      Scene scene = one_sphere(75, 41);
-      scene.camera.principal_point_offset_x = x;
-      scene.camera.principal_point_offset_y = y;
-      EXPECT_EQ(difference(scene), "") << x << ", " << y;
     }
 }
 
@@ -113,33 +103,6 @@ TEST(Fused, ASphereAnywhereIsTheSame) {
         shown += lit(scene);
       }
   EXPECT_GT(shown, 50);
-}
-
-TEST(Fused, SpheresOneBehindAnotherAndOneInAnotherAreTheSame) {
-  Scene scene = one_sphere(160, 90);
-  scene.materials.push_back(
-      {"n", {*find_model("modified_phong"), *find_lobe("cs16"), {}, 20}, {1, 1, 1}, {0.2, 0, 0}});
-  // Lit from behind the eye no sphere throws a shadow on what is seen, but the plan cannot know that.
-  scene.lights = {white(), white()};
-  scene.spheres = {{{0, 0, 0}, 0.5, 0},     {{0.3, 0.1, 0.6}, 0.4, 1}, {{0.3, 0.1, 0.6}, 0.4, 0},
-                   {{-0.6, 0, -1}, 0.7, 1}, {{0, -0.4, 0.2}, 0.3, 0},  {{0.9, 0.5, 0}, 0.1, 1},
-                   {{-1, -0.5, 0}, 0.1, 0}};
-  Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor, Precision::kMixed);
-  EXPECT_FALSE(FusedRenderer::can_render(scene, plan));
-  // With black lights there is no occluder to look for; a point light among the spheres shines on each.
-  scene.lights = {DirectionalLight{{1, 0, 0}, {1, 1, 1}}};
-  scene.spheres = {{{0, 0, 0}, 0.5, 0}, {{0.1, 1.1, -3}, 0.5, 1}, {{-0.2, -1.1, 1}, 0.5, 0}};
-  scene.camera.origin = {0, 6, 3};
-  ASSERT_TRUE(FusedRenderer::can_render(scene, make_plan(scene, EffectPolicy::kAsCalledFor)));
-  EXPECT_TRUE(lit(scene));
-  for (const double angle : {0.0, 0.2, 0.4, 0.7, 1.0, 1.5}) {
-    scene.camera.origin = {0.3, 6 * std::sin(angle), 6 * std::cos(angle)};
-    scene.camera.up = {0, std::cos(angle), -std::sin(angle)};
-    for (const double fov : {10.0, 28.0, 70.0}) {
-      scene.camera.fov_degrees = fov;
-      EXPECT_EQ(difference(scene), "") << angle << ", " << fov << " degrees";
-    }
-  }
 }
 
 TEST(Fused, ALightNearTheSurfaceIsTheSameAndOneOnItIsLeftToWaves) {

@@ -34,13 +34,6 @@ TEST(Pk, IsAsNearToTheCosineLobeAsItsFileSaysForEveryExponentFrom16On) {
   }
 }
 
-TEST(Pk, IsManyTimesNearerThanCs16) {
-  // Measured 36 and 323 times, with cs16 at 1.734e-2.
-  const double cs16 = largest_error("cs16");
-  EXPECT_LE(25 * largest_error("pk3.2"), cs16);
-  EXPECT_LE(250 * largest_error("pk3.3"), cs16);
-}
-
 TEST(Pk, FallsAndEndsAtEveryExponent) {
   // Some of its cubics rise again behind the right angle.
   for (const char* name : {"pk3.1", "pk3.2", "pk3.3", "pk3.4"})
@@ -58,10 +51,6 @@ TEST(Pk, FallsAndEndsAtEveryExponent) {
 
 TEST(Pk, HasFourMembersByName) {
   EXPECT_EQ(find_lobe("pk3.2")->order, 4);
-  const std::string formula(info(*find_lobe("pk3.4")).formula);
-  EXPECT_TRUE(formula.starts_with("max(0, 1 + (-0.06249538915 - 0.0006733233308/max(n, 16) + "))
-      << formula;
-  EXPECT_TRUE(formula.ends_with(") (n s)^3)^16")) << formula;
   EXPECT_EQ(identifier(*find_lobe("pk3.2")), "pk3_2");
   for (const char* name : {"pk", "pk3", "pk3.0", "pk3.5", "pk3.9", "pk4", "pk3_2", "pk3.20"})
     EXPECT_FALSE(find_lobe(name)) << name;

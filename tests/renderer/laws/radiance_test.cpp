@@ -1,4 +1,4 @@
-// What every model does with its lobe: where the cosine is, the horizon, finite and falling.
+// What every model does with its lobe: where the cosine is, the horizon, finite.
 
 #include "core/constants.hpp"
 #include "renderer/reflector.hpp"
@@ -33,19 +33,6 @@ TEST(EveryModel, IsDarkWhereTheLightIsBelowTheHorizon) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents))
     for (const double n_dot_l : {0.0, -1e-300, -0.5, std::nan("")})
       EXPECT_EQ(highlight_radiance(h, n_dot_l, 0.5, 0), 0) << text(h);
-}
-
-TEST(EveryModel, DoesNotGetBrighterAsTheAngleOfItsLobeGrows) {
-  for (const Highlight& h : highlights_of_both(every_model(), kExponents))
-    for (const double n_dot_l : {1e-12, 0.5}) {
-      double previous = highlight_radiance(h, n_dot_l, 0.7, 0);
-      for (const double widths : {0.01, 0.1, 0.3, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 100.0}) {
-        const double s = std::min(2.0, widths * widths / 2 / h.exponent);
-        const double here = highlight_radiance(h, n_dot_l, 0.7, s);
-        EXPECT_LE(here, previous * (1 + 1e-12)) << text(h) << " at s = " << s;
-        previous = here;
-      }
-    }
 }
 
 TEST(EveryModel, IsFiniteAndNotNegativeForAnyTwoDirectionsAboveTheHorizon) {
@@ -96,7 +83,8 @@ TEST(Names, LeadBackToTheirEntries) {
   for (const ModelId id : every_model()) EXPECT_EQ(find_model(info(id).name), id);
   for (const LobeId& id : lobes()) EXPECT_EQ(find_lobe(info(id).name), id);
   EXPECT_FALSE(find_model("phong"));
-  EXPECT_FALSE(find_lobe(""));
+  for (const char* name : {"", "cs", "cs0", "cs1", "cs15", "cs1026", "cs-2", "cs016", "cs2 "})
+    EXPECT_FALSE(find_lobe(name)) << name;
 }
 
 }  // namespace

@@ -91,28 +91,6 @@ TEST(HighlightReach, HoldsEveryNormalThatShines) {
   EXPECT_GT(shining_near_the_edge, 1500);
 }
 
-TEST(HighlightReach, IsHardlyWiderThanTheHighlightOfALightBehindTheEye) {
-  const Lamp lamp = Lamp::distant({0, 0, -1}, {1, 1, 1});
-  for (const double distance : {1.5, 2.0, 5.0, 50.0})
-    for (const double exponent : {20.0, 64.0, 1000.0}) {
-      Highlight highlight{*find_model("phong_rdf"), *find_lobe("cs16")};
-      highlight.exponent = exponent;
-      const auto cap = highlight_reach(highlight, {{0, 0, 0}, 1, 0}, {0, 0, distance}, lamp, 1);
-      ASSERT_TRUE(cap);
-      // Where the light is reflected beside the eye at the angle at which the lobe ends.
-      double low = 0, high = kRightAngle;
-      for (int step = 0; step < 60; ++step) {
-        const double middle = (low + high) / 2;
-        const double beside =
-            2 * middle + std::atan2(std::sin(middle), distance - std::cos(middle));
-        (1 - std::cos(beside) < 16 / exponent ? low : high) = middle;
-      }
-      // Near its end the lobe's value rounds to 0.
-      EXPECT_GE(cap->angle, 0.99 * low);
-      EXPECT_LE(cap->angle, 1.08 * low) << "at " << distance << ", n = " << exponent;
-    }
-}
-
 TEST(HighlightReach, IsUnknownForLobesThatMayRiseAgain) {
   const Sphere sphere{{0, 0, 0}, 1, 0};
   const Lamp lamp = Lamp::distant({0, 0, -1}, {1, 1, 1});

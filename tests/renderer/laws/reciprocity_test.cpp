@@ -40,23 +40,6 @@ TEST(EveryBrdf, IsTheSameWithLightAndEyeExchanged) {
   }
 }
 
-TEST(EveryRdf, ReadAsABrdfIsNotReciprocalAndSaysByHowMuch) {
-  const Frame frame;
-  for (const Highlight& h :
-       highlights_of_both(rdfs(), std::vector{0.1, 1.0, 2.0, 16.0, 54.0, 128.0})) {
-    const Reflector reflector({"", h, {1, 1, 1}, {}});
-    double largest = 0;
-    for (const Pair& p : direction_pairs(frame, h.exponent)) {
-      const double there = brdf(reflector, frame.normal, p.to_eye, p.to_light),
-                   back = brdf(reflector, frame.normal, p.to_light, p.to_eye);
-      if (there + back > 0)
-        largest = std::max(largest, std::abs(there - back) / std::max(there, back));
-    }
-    // Exchanged, N.L becomes N.V: the ratio of the two is what is missing.
-    EXPECT_GT(largest, 0.5) << text(h);
-  }
-}
-
 TEST(ReciprocityGap, IsRoundingForEveryBrdf) {
   for (const Highlight& h : highlights_of_both(brdfs(), kExponents))
     EXPECT_LT(reciprocity_gap(h), 1e-11) << text(h);
