@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/image_io.hpp"
 #include "gallery/gallery.hpp"
 #include "gallery/history.hpp"
 #include "records/comparison.hpp"
@@ -318,7 +319,9 @@ TEST_F(Changes, the_timeline_has_every_run_with_its_date) {
 }
 
 TEST_F(Changes, publishing_without_a_baseline_removes_what_it_had_added) {
-  write_file(was_.cell_directory(FakeFarm::kPass) / "povray.exr", "v/1\x02");
+  Image other(2, 2);
+  other.values()[0] = 1;
+  write_exr(was_.cell_directory(FakeFarm::kPass) / "povray.exr", other, {});
   was_.seal(FakeFarm::kPass);
   publish({});
   const auto before = files_below(site_.path());

@@ -33,7 +33,7 @@ class DifferenceMaps : public ::testing::Test {
     options_.maps = {{"probe", "Probe", "what a test asks for",
                       [this](const Image& a, const Image& b, const MapViewing& viewing) {
                         ++measured_;
-                        seen_ = viewing;
+                        if (a.width() == 3) seen_ = viewing;  // other cells have smaller ones
                         return std::vector<float>(a.pixel_count(), a.values()[0] - b.values()[0]);
                       }}};
   }

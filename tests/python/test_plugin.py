@@ -20,7 +20,7 @@ SUITE = """
 def suite(pytester):
     def run(factor, *options):
         pytester.makepyfile(test_it=SUITE.replace("{factor}", str(factor)))
-        return pytester.runpytest_subprocess(
+        return pytester.runpytest_inprocess(
             "-p", "lobelia.pytest_plugin", "-p", "no:cacheprovider", *options
         )
 
