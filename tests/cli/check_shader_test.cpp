@@ -81,6 +81,19 @@ TEST_F(CheckShaderCommand, WritesARecordAndAPage) {
   EXPECT_THAT(read_file(directory_.path() / "r.html", 1 << 22), HasSubstr("light leaks"));
 }
 
+TEST_F(CheckShaderCommand, AShaderThatDiscardsSomeOfItsCallsDiffers) {
+  const auto exit_code = [&](const char* first) {
+    write("mine.glsl", std::string("float f(float c, float l, float n)\n{\n") + first +
+                           "    if (l <= 0.0 || c <= 0.0) return 0.0;\n"
+                           "    return (n + 1.0) / 6.28318531 * pow(c, n);\n}\n");
+    return check({"mine.glsl", "--function", "f", "--arguments", "cosine,N.L,n", "--model",
+                  "phong_rdf", "--exponent", "16", "--no-costs"})
+        .exit_code;
+  };
+  EXPECT_EQ(exit_code(""), 0);
+  EXPECT_EQ(exit_code("    if (c < 0.0) discard;\n"), 1);
+}
+
 TEST_F(NeedsWebGpu, WgslIsCheckedInABrowser) {
   const TemporaryDirectory directory;
   const auto run = [&](std::vector<std::string> arguments) {

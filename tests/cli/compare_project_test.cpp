@@ -1,4 +1,7 @@
 // `lobelia compare` with a project, several references, known differences and --accept; Markdown, GitHub's lines, colours.
+#include <fmt/chrono.h>
+
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -129,6 +132,13 @@ TEST_F(CompareProject, ExcusesAKnownDifferenceUntilItExpires) {
   EXPECT_THAT(junit, HasSubstr("failures=\"0\""));
   EXPECT_THAT(junit, HasSubstr("&lt;b"));
   EXPECT_THAT(text("c.csv"), HasSubstr("known until 9999-12-31"));
+  const auto today = [] { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); };
+  for (std::string day; day != today();) {  // again where a day ended meanwhile
+    day = today();
+    project(known(day));
+    result = compare({});
+  }
+  EXPECT_EQ(result.exit_code, 0) << "on its last day: " << result.output_tail;
   project(known("\"2001-01-01\""));
   result = compare({});
   EXPECT_EQ(result.exit_code, 1);

@@ -151,6 +151,20 @@ TEST_F(OutsideEngines, ThatMisbehavesLosesItsOwnCellsAlone) {
   EXPECT_TRUE(fs::exists(path("out/failed/n16/reference-fails/again.sh")));
 }
 
+TEST_F(OutsideEngines, HasItsPictureRefusedIfItIsTooLargeOrOfAnotherHeight) {
+  script("large.sh", "truncate -s 40M more");
+  script("low.sh", "", "sed 's/\\(.*\\)32/\\116/' \"$1\" > s.xml; set -- s.xml \"$2\"");
+  grid(
+      "<engine name=\"large\" command=\"sh large.sh {scene} {out}\"/>"
+      "<engine name=\"low\" command=\"sh low.sh {scene} {out}\"/>");
+  EXPECT_EQ(farm({"--allow-commands", "--attempts", "1", "--disk", "20M"}).exit_code, 4);
+  std::map<std::string, std::string> failures;
+  const nlohmann::json record = cell();
+  for (const auto& problem : record["problems"]) failures[problem["engine"]] = problem["failure"];
+  EXPECT_EQ(failures["large"], "disk limit");
+  EXPECT_EQ(failures["low"], "wrong size");
+}
+
 TEST_F(OutsideEngines, CanWriteNowhereElseAndLeavesNothingBehind) {
   script("mine.sh", "echo x > " + shell_quote(path("elsewhere").string()) +
                         "\n(setsid sleep 987.6 &) > /dev/null 2>&1");

@@ -46,6 +46,22 @@ TEST(VerifyStability, PrintsATableAndWritesARecordAndPicturesThatShowWhatCareBuy
   EXPECT_EQ(files_in(directory.path()), 2u);
 }
 
+TEST(VerifyReferences, EndsWith5WhereAnEngineFails) {
+  const TemporaryDirectory directory;
+  const auto povray = directory.path() / "povray";
+  write_file(povray,
+             "#!/bin/sh\n"
+             "echo 'POV-Ray 3.7.0.10' >&2\n"
+             "case \"$*\" in *version*) exit 0;; esac\n"
+             "exit 3\n");
+  std::filesystem::permissions(povray, std::filesystem::perms::owner_all);
+  const auto result = run_lobelia({"verify", "references", "--small", "--size", "16", "--engine",
+                                   "povray", "--povray", povray.string(), "-q", "-o", "table"},
+                                  directory.path());
+  EXPECT_EQ(result.exit_code, 5) << result.output_tail;
+  EXPECT_GT(read_json(directory.path() / "table" / "agreement.json")["verdicts"]["failed"], 100);
+}
+
 TEST(VerifyStability, RefusesBadPlacesBeforeItWorks) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "file", "");

@@ -29,8 +29,9 @@ class JobGraphTest : public FarmTest {
   struct Planned {
     explicit Planned(const Grid& g)
         : grid(g),
-          cells{cells_of(grid), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }},
-          engines(find_engines(grid.engines, {})),
+          cells{cells_of(grid), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); },
+                grid.truth, grid.ours},
+          engines(find_engines(grid.engines, {{}, false, {}, false, grid.outside})),
           graph(cells, engines) {}
     Planned(const Planned&) = delete;
     Grid grid;
@@ -82,6 +83,19 @@ TEST_F(JobGraphTest, AJobWaitsForThoseThatMakeItsInputs) {
       EXPECT_NE(std::find(dependents.begin(), dependents.end(), job), dependents.end())
           << graph.name(job) << " waits for " << graph.name(input);
     }
+}
+
+TEST_F(JobGraphTest, WithoutItsReferenceACellHasNoComparison) {
+  write_file(directory_.path() / "x.exr", "");
+  Grid compared =
+      grid("16", "<engine name=\"analytic\"/><pictures name=\"theirs\" files=\"x.exr\"/>");
+  compared.truth = "analytic";
+  Planned planned(compared);
+  JobGraph& graph = planned.graph;
+  ASSERT_TRUE(graph[graph.compare(0, 1)].exists);
+  graph.leave_out(0, 0);
+  EXPECT_TRUE(graph[graph.reference(0, 1)].exists);
+  EXPECT_FALSE(graph[graph.compare(0, 1)].exists);
 }
 
 TEST_F(JobGraphTest, AnyPartOfTheOrderIsSpreadOverTheWholeGrid) {

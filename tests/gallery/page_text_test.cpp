@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/svg_chart.hpp"
+#include "gallery/page.hpp"
 #include "gallery/safe_svg.hpp"
 
 namespace lobelia::gallery {
@@ -43,6 +44,11 @@ TEST(PageText, HasNoPathOfTheMachine) {
             "lobelia cost oblique_45.xml -o 'cost' -q");
   EXPECT_EQ(without_paths("--out=/a/b/c.exr scenes/x.xml 1/2 https://a.org/b"),
             "--out=c.exr scenes/x.xml 1/2 https://a.org/b");
+}
+
+TEST(DataScript, IsOneTextOfJavaScriptWhateverTheDataHold) {
+  EXPECT_EQ(data_script("a", R"({"x":"it's \n"})"), R"(lobelia('a','{"x":"it\'s \\n"}');)"
+                                                    "\n");
 }
 
 TEST(SafeSvg, IsADrawnChartAndNothingThatRuns) {

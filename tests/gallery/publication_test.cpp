@@ -375,6 +375,13 @@ TEST(Scrub, shortens_paths_and_leaves_what_is_none) {
             "povray: PIDs, ppid; process 2.5 GB, process 3 of 4, sphere[2]");
 }
 
+TEST(Scrub, leaves_who_ran_it_and_where_out_of_records) {
+  const std::string shown = Scrub({}).record(
+      R"({"user": "ada", "pid": "4711", "host": {"name": "node7", "cores": "8"}})");
+  for (const char* telling : {"ada", "4711", "node7"}) EXPECT_THAT(shown, Not(HasSubstr(telling)));
+  EXPECT_THAT(shown, HasSubstr("cores"));
+}
+
 TEST(Scrub, keeps_values_of_an_axis_apart_and_a_broken_seal_broken) {
   Scrub scrub({});
   records::Axis axis{

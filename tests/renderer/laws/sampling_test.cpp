@@ -24,7 +24,7 @@ void expect_draws_as_the_pdf_says(const std::vector<Highlight>& cases, bool with
   std::uint64_t seed = 1;
   for (const Highlight& h : cases)
     for (const double degrees : kSampledIncidences) {
-      if (is_left_out(seed++, 7)) continue;
+      if (is_left_out(seed++, 11)) continue;
       const Reflector reflector(material(h, with_base));
       const ChiSquare test(reflector, reflector, info(h.model).angle, radians(degrees), seed);
       EXPECT_GT(test.p_value(), limit) << text(h) << " at " << degrees << " degrees";
