@@ -174,17 +174,19 @@ Ownership cache_ownership() {
 bool is_cache(const fs::path& directory) {
   const HeldDirectory root(directory);
   if (!root) return false;
-  if (const auto marker = root.read(kCacheMarkerFile, 64)) return true;
-  return !root.names().empty() && has_only_our_names(root);
+  const bool is_begun = !root.names().empty() && has_only_our_names(root);
+  return is_begun || root.read(kCacheMarkerFile, 64);
 }
 
 void require_cache(const HeldDirectory& root) {
+  // Names before the mark: another farm may put it there meanwhile.
+  const bool is_begun = has_only_our_names(root);
   if (const auto marker = root.read(kCacheMarkerFile, 64)) {
     if (*marker != kCacheLayout)
       throw Error(ExitCode::kInput,
                   fmt::format("{}: a cache of another layout; this program reads layout {}",
                               root.path().string(), kCacheLayout.substr(0, 1)));
-  } else if (!has_only_our_names(root)) {
+  } else if (!is_begun) {
     throw Error(ExitCode::kInput, fmt::format("{}: not empty and not a cache (it has no file '{}')",
                                               root.path().string(), kCacheMarkerFile));
   }

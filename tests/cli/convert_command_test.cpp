@@ -71,6 +71,15 @@ TEST_F(ConvertCommand, WritesARecordAndAChart) {
   EXPECT_EQ(range["columns"].size(), 9u);
 }
 
+TEST_F(ConvertCommand, ARoughnessIsTheRootOfAlpha) {
+  const auto best = [&](const std::string& from) {
+    return Json::parse(
+        printed("lobelia convert " + from + " --to phong_rdf --measure width --json -\n"))["best"];
+  };
+  EXPECT_EQ(best("--roughness 0.5"), best("--alpha 0.25"));
+  EXPECT_NE(best("--roughness 0.5"), best("--alpha 0.5"));
+}
+
 TEST_F(ConvertCommand, RefusesWhatIsWrongInOneLine) {
   constexpr std::pair<const char*, const char*> kMistakes[] = {
       {"--exponent 32", "--to is required"},

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <latch>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -152,6 +154,19 @@ TEST_F(ResultCacheTest, ManyMayUseItAtOnceAndWhoeverClearsItIsAlone) {
   const auto alone = three.try_use(false);
   EXPECT_TRUE(alone);
   EXPECT_FALSE(one.try_use(true));
+}
+
+TEST_F(ResultCacheTest, IsOneForAllWhoMakeItAtTheSameMoment) {
+  for (int run = 0; run < 30; ++run) {
+    const fs::path place = directory_.path() / std::to_string(run);
+    std::latch begun(3);
+    const auto make = [&] {
+      begun.arrive_and_wait();
+      EXPECT_NO_THROW(ResultCache{place});
+    };
+    const std::jthread first(make), second(make);
+    make();
+  }
 }
 
 TEST_F(ResultCacheTest, KeepsAFailureUntilItIsForgotten) {
