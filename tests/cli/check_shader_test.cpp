@@ -81,6 +81,18 @@ TEST_F(CheckShaderCommand, WritesARecordAndAPage) {
   EXPECT_THAT(read_file(directory_.path() / "r.html", 1 << 22), HasSubstr("light leaks"));
 }
 
+TEST_F(CheckShaderCommand, AnExportWhoseCoefficientIsComputedInTheShaderPasses) {
+  ASSERT_EQ(run_lobelia({"export", "--language", "glsl", "--lobe", "cs16", "modified_phong", "-o",
+                         "ours.glsl"},
+                        directory_.path())
+                .exit_code,
+            0);
+  const ProcessResult result =
+      check({"ours.glsl", "--function", "lobelia_modified_phong_cs16", "--model", "modified_phong",
+             "--lobe", "cs16", "--exponent", "4,300", "--no-costs"});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+}
+
 TEST_F(CheckShaderCommand, AShaderThatDiscardsSomeOfItsCallsDiffers) {
   const auto exit_code = [&](const char* first) {
     write("mine.glsl", std::string("float f(float c, float l, float n)\n{\n") + first +

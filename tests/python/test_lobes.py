@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import lobelia
+from lobelia._errors import error_of
 
 EXPONENTS = [1.0, 16.0, 64.0, 1000.0]
 
@@ -217,3 +218,14 @@ def test_the_catalogue_names_every_model_and_lobe():
     assert [one.name for one in catalogue().lobes] == lobelia.lobes()
     assert {one.model for one in catalogue().highlights} == set(lobelia.models())
     assert {one.lobe for one in catalogue().highlights} == set(lobelia.lobes())
+
+
+def test_every_exit_code_has_its_exception():
+    kinds = [
+        kind for kind in vars(lobelia).values()
+        if isinstance(kind, type) and issubclass(kind, lobelia.Error) and kind is not lobelia.Error
+    ]  # fmt: skip
+    assert {kind.exit_code for kind in kinds} == {2, 3, 4, 5, 70, 71}
+    for kind in kinds:
+        assert type(error_of(kind.exit_code, ["why"])) is kind
+    assert isinstance(error_of(71, ["no threads"]), MemoryError)

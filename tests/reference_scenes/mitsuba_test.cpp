@@ -151,7 +151,7 @@ constexpr char kTheirs[] = R"(<?xml version="1.0"?>
   </shape>
   <shape type="sphere"/>
   <shape type="rectangle">
-    <transform name="to_world"><scale x="2" y="3"/><lookat origin="0, 4, 0" target="0, 0, 0" up="0, 0, 1"/></transform>
+    <transform name="to_world"><scale y="3"/><scale x="2"/><lookat origin="0, 4, 0" target="0, 0, 0" up="0, 0, 1"/></transform>
     <bsdf type="null"/>
     <emitter type="area"><rgb name="radiance" value="1, 2, 3"/></emitter>
   </shape>
