@@ -112,6 +112,7 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
   };
   EXPECT_EQ(in("/nowhere:\"$PWD\""), 0);
   EXPECT_EQ(in("\"$PWD\"x:/nowhere:."), 2);
+  EXPECT_EQ(in("\"${PWD%?}\""), 2) << "a folder whose name begins like this one's";
 }
 
 TEST_F(OutsideEngines, ThatMisbehavesLosesItsOwnCellsAlone) {
