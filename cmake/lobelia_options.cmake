@@ -82,6 +82,10 @@ endfunction()
 # For `make mutants`, which changes one file at a time.
 set(LOBELIA_ALONE "" CACHE STRING "Sources that are compiled by themselves where others are not")
 option(LOBELIA_SHARED_ROOMS "A shared library of each room: a changed file links one of them anew, and no program" OFF)
+if(LOBELIA_SHARED_ROOMS)
+  # __FILE__ does not tell the copies of the tree apart, so that a compiler cache finds the objects of another.
+  target_compile_options(lobelia_options INTERFACE "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}=.")
+endif()
 
 # lobelia_room(core LINK fmt::fmt): a library of all .cpp files in the room's folder. FOLDER is a subfolder to use instead.
 # EXCEPT and ALONE are regular expressions of paths: files outside of the room, and files that are compiled by themselves
