@@ -34,7 +34,7 @@ class CompareFolders : public ComparePictures {
   }
 };
 
-TEST_F(CompareFolders, WithEqualPicturesPassAndSayWhatHasNoReferenceOrFailForWhatIsMissing) {
+TEST_F(CompareFolders, PassIfEqualSayWhatHasNoReferenceAndFailForWhatIsMissing) {
   put("a/x.exr", 0.1f), put("b/x.exr", 0.1f), put("a/deep/y.exr", 0.2f), put("b/deep/y.exr", 0.2f);
   put("a/new.exr", 0.1f);
   const auto result = compare({"a", "b"});

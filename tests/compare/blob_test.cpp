@@ -13,7 +13,7 @@ namespace {
 constexpr double kBackground = 0.25;
 constexpr Spot kTilted{81.37, 70.84, 4, 14, 5, 0.6};
 
-/// Of another colour than grey: what counts is the mean.
+/// A coloured spot. The figures are those of the mean of its channels.
 Image coloured(const Radiance& radiance) { return picture(170, 150, radiance, {1.5, 1, 0.5}); }
 Image tilted() {
   return coloured([](double x, double y) { return kBackground + kTilted(x, y); });

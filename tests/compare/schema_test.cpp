@@ -207,9 +207,9 @@ TEST(MetricsDocument, IsWhatTheProgramPrints) {
       << "run: lobelia compare --list-metrics > docs/metrics.md";
 }
 
-// Of what no law over random records spoils: keys in the depth, keys that need each other, and values.
+// The laws over random records do not spoil these: nested keys, keys that need each other, and values.
 
-TEST(BrokenRecords, OfComparisonsAreRefused) {
+TEST(BrokenRecords, AreRefusedWhereTheyAreComparisons) {
   const Image image = fixtures::highlight(32, 32, 10, 1);
   const Plain plain = as_written(record(image, image, everything(image))),
               noisy = as_written(record(image, image, with_noise({}, image, 0.1f))),
@@ -235,7 +235,7 @@ TEST(BrokenRecords, OfComparisonsAreRefused) {
       set, [](Plain& r) { r["pairs"][0]["comparison"].erase("metrics"); });
 }
 
-TEST(BrokenRecords, OfPlacesThatAreFiniteAreRefused) {
+TEST(BrokenRecords, AreRefusedWhereTheirPlacesAreFinite) {
   Image image = fixtures::highlight(32, 32, 10, 1);
   image.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
   Plain finite = as_written(record(image, image, {}));

@@ -129,7 +129,7 @@ void write_mip_map(const std::filesystem::path& path, Imf::Header header, unsign
   }
 }
 
-TEST_F(Windows, OfATiledMipMapAreThoseOfItsFirstLevel) {
+TEST_F(Windows, AreThoseOfTheFirstLevelOfATiledMipMap) {
   const auto path = directory_.path() / "a.exr";
   write_mip_map(path, Imf::Header(5, 3), 2,
                 [](int level) { return std::vector<float>(15, float(level + 1)); });

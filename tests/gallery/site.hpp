@@ -31,7 +31,7 @@ class Site {
 /// All text below a node, as a person reads it.
 std::string text_of(const pugi::xml_node& node);
 
-/// What is in the files of a directory and below, by their paths in it.
+/// The contents of all files below a directory, by their paths in it.
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory);
 
 /// Up to the first character that is no digit of base64.

@@ -108,7 +108,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
   std::map<std::size_t, std::string> logs_;  ///< of errors_of(), by scene
 };
 
-TEST_P(FakeEngine, ThatIsMissingOrIsAnotherProgramSaysSo) {
+TEST_P(FakeEngine, SaysThatItIsMissingOrAnotherProgram) {
   EXPECT_THAT(unavailable_because(directory_.path() / "nothing"), HasSubstr("is not a program"));
   EXPECT_THAT(unavailable_because(program("", "GNU grep 3.8")),
               HasSubstr("does not answer --version"));

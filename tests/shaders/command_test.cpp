@@ -107,7 +107,7 @@ TEST_F(ExportCommand, WhatItDoesNotKnowOrHaveIsExitCode2AndOneLine) {
   expect_refusal({"--language", "msl", "phong_rdf", "--coefficient", "argument", "--exponent", "2"},
                  "--coefficient argument");
   expect_refusal({"--language", "glsl"}, "MODEL");
-  // What POV-Ray does not have.
+  // POV-Ray does not have these.
   for (const auto& [option, value] : {std::pair{"--exponent", "64"},
                                       {"--fresnel", "schlick"},
                                       {"--coefficient", "argument"},

@@ -139,7 +139,7 @@ TEST_F(CompiledByGlslang, EveryHlslExportInHalfFloatsIsAcceptedBesideThoseInFloa
 
 using Replacements = std::vector<std::pair<const char*, const char*>>;
 
-/// What is exported, from its first function on, with replacements for what patterns find.
+/// The exported text from its first function on, with each match of a pattern replaced.
 std::string functions_of(const ShaderExport& request, const Replacements& replacements) {
   std::string text = shader_text(request);
   text.erase(0, text.find("#ifndef"));

@@ -120,7 +120,7 @@ TEST_F(DamagedCache, DoesNotMatterToCellsThatAreDamagedToo) {
   }
 }
 
-TEST_F(DamagedCache, ThatIsNoneOrHasAnotherLayoutIsNotUsed) {
+TEST_F(DamagedCache, IsNotUsedIfItIsNoneOrHasAnotherLayout) {
   const auto refused = [&](const std::string& path, int code) {
     const FarmRun farm = run_command({"farm", "grid.xml", "-o", "other", "--cache", path});
     EXPECT_EQ(farm.exit_code, code) << path << ": " << farm.output;

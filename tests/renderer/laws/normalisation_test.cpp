@@ -1,4 +1,5 @@
-// What an exact coefficient makes 1, by adaptive quadrature of the model's own evaluation; and how the paper's miss it.
+// With its exact coefficient a model's integral is 1, by adaptive quadrature of its own evaluation. How far the paper's
+// coefficients are from that.
 #include <map>
 
 #include "renderer/reflector.hpp"

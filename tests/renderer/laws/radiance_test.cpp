@@ -1,4 +1,4 @@
-// What every model does with its lobe: where the cosine is, the horizon, finite.
+// Every model multiplies its lobe by the cosine where it should, is black below the horizon, and is finite.
 
 #include "core/constants.hpp"
 #include "renderer/reflector.hpp"
