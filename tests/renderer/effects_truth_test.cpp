@@ -122,6 +122,26 @@ TEST(WhiteFurnace, WithInterReflectionIsWhiteBetweenWhiteSpheresToo) {
   EXPECT_LT(last, 0.9);
 }
 
+TEST(AWedgeOfTwoGreyPlanes, IsAsBrightUnderAnEvenSkyAsInClosedFormThoughMostPathsEndEarly) {
+  // At every distance from the edge, F = (1 + cos(angle)) / 2 of what a plane receives is from the other one. So both are
+  // evenly bright: L = a (F L + 1 - F). Half of that has come after more than four reflections, where the roulette acts.
+  constexpr double kAlbedo = 0.9, kAngle = kPi / 6;
+  const double sine = std::sin(kAngle / 2), cosine = std::cos(kAngle / 2);
+  Scene scene;
+  scene.camera = {{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, 10};
+  scene.film = {16, 16};
+  scene.sampler.sample_count = 64;
+  scene.materials = {matt(kAlbedo)};
+  scene.planes = {{{0, 0, 0}, {sine, cosine, 0}}, {{0, 0, 0}, {sine, -cosine, 0}}};
+  scene.lights = {ConstantLight{{1, 1, 1}}};
+  scene.depth.glossy = 64;
+  const double other = (1 + std::cos(kAngle)) / 2;
+  const double expected = kAlbedo * (1 - other) / (1 - kAlbedo * other);
+  // A path brings between 0 and 1, so its variance is at most this.
+  const double variance = expected * (1 - expected);
+  EXPECT_NEAR(mean(render(scene, {}).image), expected, 5 * std::sqrt(variance / (16 * 16 * 64)));
+}
+
 TEST(Environment, IsSeenBesideTheSphereAndInAMirror) {
   Scene scene = one_sphere(matt(0));
   scene.camera.fov_degrees = 40;
