@@ -112,7 +112,16 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
   };
   EXPECT_EQ(in("/nowhere:\"$PWD\""), 0);
   EXPECT_EQ(in("\"$PWD\"x:/nowhere:."), 2);
-  EXPECT_EQ(in("\"${PWD%?}\""), 2) << "a folder whose name begins like this one's";
+  // Leave for a folder, which must exist to count, is none for its neighbour whose name begins like it.
+  for (const char* folder : {"near", "nearby"}) fs::create_directory(path(folder));
+  fs::rename(path("grid.xml"), path("nearby/grid.xml"));
+  const std::string run_nearby = " \"$LOBELIA\" farm nearby/grid.xml -o out -q --dry-run";
+  for (const auto& [folder, code] : {std::pair{"nearby", 0}, {"near", 2}})
+    EXPECT_EQ(run_shell("LOBELIA_ALLOW_COMMANDS_IN=\"$PWD\"/" + std::string(folder) + run_nearby,
+                        directory_.path())
+                  .exit_code,
+              code)
+        << folder;
 }
 
 TEST_F(OutsideEngines, ThatMisbehavesLosesItsOwnCellsAlone) {
