@@ -73,7 +73,7 @@ struct Row {
 
 /// An engine's average at two numbers of points against our own converged samples.
 struct SoftRow {
-  std::string_view what;
+  std::string what;
   Variant variant;
   std::vector<records::SoftCount> counts;  ///< of the pictures that there are
   Verdict verdict = Verdict::kNoTarget;

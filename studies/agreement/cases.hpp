@@ -1,6 +1,7 @@
 // The cases of the agreement study: highlights of every kind, each effect that engines share, and effects that are averages.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,7 +43,7 @@ std::vector<Case> effect_cases(const Scope& scope);
 
 /// A scene that engines average, with highlights that are native to POV-Ray.
 struct SoftCase {
-  std::string_view what;
+  std::string what;
   Scene scene;
   /// The same for a renderer that samples, with negligible noise.
   Scene converged;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -82,7 +83,7 @@ inline Scene mirror_scene(const HighlightChoice& choice, std::vector<Light> ligh
 }
 
 struct NamedScene {
-  std::string_view name;
+  std::string name;
   Scene scene;
 };
 

@@ -65,7 +65,10 @@ std::string verdict_sentence(const Agreement& agreement) {
                     refused = agreement.count(Verdict::kNotComparable),
                     all = agreement.rows.size() + agreement.soft.size();
   std::string text = fmt::format("{} comparisons, ", all - refused - failed);
-  text += missed == 0 ? "all within their targets" : fmt::format("{} MISSED their targets", missed);
+  if (missed > 0)
+    text += fmt::format("{} MISSED their targets", missed);
+  else
+    text += failed == 0 ? "all within their targets" : "none misses its target";
   if (failed > 0) text += fmt::format(", {} FAILED", failed);
   return text + fmt::format(", {} not comparable", refused);
 }
