@@ -265,6 +265,17 @@ TEST_P(Agreement, OfTheSmallestPictureAndOfWideOnes) {
   expect_agreement({{"small", small}, {"flat", flat}, {"wide", wide}});
 }
 
+/// Widths, heights and the longer side, in which engines count an offset, are the same in a square.
+TEST_P(Agreement, OfAFilmAsideInAWideAndInATallPicture) {
+  Scene wide = sphere_scene({"modified_phong", "cosine", "exact", 8}, {directional_at(20)}, 48);
+  wide.film.height = 16;
+  wide.camera.principal_point_offset_x = 0.1;
+  wide.camera.principal_point_offset_y = -0.2;
+  Scene tall = wide;
+  std::swap(tall.film.width, tall.film.height);
+  expect_agreement({{"wide", wide}, {"tall", tall}});
+}
+
 TEST_P(Agreement, SceneWithoutLightIsBlack) {
   const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 8}, {}, 16);
   int results = 0;
