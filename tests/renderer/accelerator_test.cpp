@@ -73,12 +73,5 @@ TEST(Accelerator, AnswersAsALoopOverAllSpheresBitForBit) {
   EXPECT_GT(hidden, 200);
 }
 
-TEST(Accelerator, OfSpheresInTheSamePlaceTakesTheFirst) {
-  const std::vector<Sphere> spheres(100, Sphere{{0, 0, 0}, 1, 0});
-  const Accelerator accelerator(spheres);
-  EXPECT_EQ(accelerator.nearest({0, 0, 5}, {0, 0, -1}, -1).sphere, 0);
-  EXPECT_EQ(accelerator.nearest({0, 0, 5}, {0, 0, -1}, 0).sphere, 1);
-}
-
 }  // namespace
 }  // namespace lobelia

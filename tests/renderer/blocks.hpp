@@ -1,11 +1,15 @@
 // Whether pictures with noise agree: a z-test of blocks of pixels.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/image.hpp"
+#include "renderer/render.hpp"
 
 namespace lobelia {
 
@@ -43,6 +47,28 @@ inline double farthest(const Blocks& a, const Blocks& b) {
   double z = 0;
   for (std::size_t i = 0; i < a.mean.size(); ++i) z = std::max(z, apart(a, b, i));
   return z;
+}
+
+/// Pictures of other seeds, until no block is farther apart than is allowed of so many, or they are too many for
+/// chance: what is rarely drawn makes a mean look certain that is not.
+inline void expect_the_same_light(Scene scene, const RenderOptions& a, const RenderOptions& b,
+                                  const std::vector<std::pair<int, double>>& pictures_and_allowed =
+                                      {{32, 4.5}, {128, 5.0}, {1024, 5.5}},
+                                  int most_of_b = 1 << 20) {
+  Blocks of_a, of_b;
+  std::uint64_t seed = 0;
+  double z = 0;
+  for (const auto& [pictures, allowed] : pictures_and_allowed) {
+    while (of_a.count < pictures) {
+      scene.sampler.seed = ++seed;
+      of_a.add(render(scene, a).image);
+      scene.sampler.seed = ++seed;
+      if (of_b.count < std::min(pictures, most_of_b)) of_b.add(render(scene, b).image);
+    }
+    z = farthest(of_a, of_b);
+    if (z < allowed) return;
+  }
+  FAIL() << z << " sigma";
 }
 
 }  // namespace lobelia

@@ -37,19 +37,6 @@ TEST(CatalogueRecord, HasEveryModelLobeAndTheirCombinationsMeasured) {
     EXPECT_TRUE(parameter.contains("allowed") || parameter.contains("max")) << parameter.dump();
 }
 
-TEST(CatalogueRecord, MeasuresThePaperMisprintAsTwiceTheEnergy) {
-  const LobeId lobes[] = {*find_lobe("cosine")};
-  const Json record = as_json(catalogue_record(64, lobes));
-  int found = 0;
-  for (const Json& h : record.at("highlights"))
-    if (h.at("model") == "modified_blinn_phong" && h.at("lobe") == "cosine") {
-      ++found;
-      EXPECT_NEAR(h.at("energyAtNormalIncidence").get<double>(),
-                  h.at("normalisation") == "paper" ? 2 : 1, 1e-9);
-    }
-  EXPECT_EQ(found, 2);
-}
-
 TEST(CatalogueRecord, KnowsTheHalfWidthAndTheSupportOfALobe) {
   const LobeId lobes[] = {*find_lobe("cosine"), *find_lobe("cs16"), *find_lobe("schlick")};
   const Json record = as_json(catalogue_record(100, lobes));

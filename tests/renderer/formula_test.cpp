@@ -150,17 +150,6 @@ TEST(Formula, IsTheSameInAShader) {
   EXPECT_EQ(Infix::value_of_body(formula_body(Formula("-s")), {{"s", 0.5}, {"n", 3}}), 0);
 }
 
-TEST(Formula, MultipliesForAWholePowerInAShader) {
-  EXPECT_EQ(formula_body(Formula("(1 - n*s/6)^6")),
-            "    float t1 = 1.0 - n * s / 6.0;\n"
-            "    float t2 = t1 * t1;\n"
-            "    float t3 = t2 * t2;\n"
-            "    float t4 = t2 * t3;\n"
-            "    return min(1.0, max(0.0, t4));\n");
-  EXPECT_EQ(formula_body(Formula("c^n")),
-            "    float c = 1.0 - s;\n    return min(1.0, max(0.0, pow(c, n)));\n");
-}
-
 std::string complaint_of(const std::string& text) {
   try {
     const Formula formula(text);

@@ -163,23 +163,6 @@ EnvmapTable with_image(int width, int height, const std::function<float(int, int
   return {image, {1, 1, 1}, floor};
 }
 
-TEST(EnvironmentImage, IsWhereTheConventionSays) {
-  // A bright pixel in each place that the convention names.
-  const auto seen = [](int x, int y, Vec3 direction) {
-    return with_image(64, 32, [=](int u, int v) { return u == x && v == y ? 1.0f : 0.0f; })
-        .look(direction)
-        .radiance()
-        .r;
-  };
-  const double half_pixel = kPi / 64;
-  EXPECT_GT(seen(32, 16, {std::sin(half_pixel), 0, -std::cos(half_pixel)}), 0.4);
-  EXPECT_GT(seen(48, 16, {1, 0, 0}), 0.2);
-  EXPECT_GT(seen(16, 16, {-1, 0, 0}), 0.2);
-  EXPECT_GT(seen(0, 16, {0, 0, 1}), 0.2);
-  EXPECT_GT(seen(5, 0, normalize({-0.03, 1, 0.05})), 0.2);
-  EXPECT_GT(seen(5, 31, normalize({-0.03, -1, 0.05})), 0.2);
-}
-
 TEST(EnvironmentImage, DrawsWhatIsAboveItsFloorAndNothingElse) {
   for (const double floor : {0.0, 0.05, 0.1, 50.0}) {
     const EnvmapTable environment = with_image(

@@ -16,13 +16,6 @@ TEST(OperationCount, OfCsIsLog2OfKSquaringsWhereKIsAPowerOfTwo) {
   EXPECT_EQ(operations(*find_lobe("cs16")), (OperationCount{5, 1, 0, 0, 0, 1}));
 }
 
-TEST(OperationCount, OfSchlickHasADivisionAndNoTranscendentalOfCosineTwoOfThese) {
-  const OperationCount schlick = operations(*find_lobe("schlick"));
-  EXPECT_EQ(schlick.divide, 1);
-  EXPECT_EQ(schlick.transcendental, 0);
-  EXPECT_EQ(operations(*find_lobe("cosine")).transcendental, 2);
-}
-
 TEST(OperationCount, OfEveryLobeAndModelIsNotNothing) {
   for (const LobeId& lobe : all_lobes()) EXPECT_GT(operations(lobe).multiply, 0);
   for (const ModelId model : all_models()) {

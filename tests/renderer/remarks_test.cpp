@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/render.hpp"
+#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -15,15 +15,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 Scene plain() {
-  Scene scene;
-  scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 28};
+  Scene scene = one_sphere(shiny(16));
+  scene.camera.fov_degrees = 28;
   scene.film = {24, 24};
   scene.lights = {DirectionalLight{{0, 0, -1}, {1, 1, 1}}};
-  Material material;
-  material.highlight = {*find_model("phong_rdf"), *find_lobe("cosine"), {}, 16};
-  material.specular_reflectance = {1, 1, 1};
-  scene.materials = {material};
-  scene.spheres = {{{0, 0, 0}, 1, 0}};
   return scene;
 }
 
@@ -33,35 +28,49 @@ float brightest(const Scene& scene) {
 }
 
 TEST(Remarks, OfAnOrdinarySceneAreNone) {
-  EXPECT_THAT(remarks(plain()), IsEmpty());
-  EXPECT_GT(brightest(plain()), 1);
-}
-
-TEST(Remarks, OfASceneWithoutLightSayThatItIsBlackAndItIs) {
   Scene scene = plain();
-  scene.lights.clear();
-  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("no light: the picture is black")));
-  EXPECT_EQ(brightest(scene), 0);
-  scene.lights = {PointLight{{0, 0, 3}, {0, 0, 0}}};
-  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("no light shines")));
-  EXPECT_EQ(brightest(scene), 0);
+  EXPECT_THAT(remarks(scene), IsEmpty());
+  EXPECT_GT(brightest(scene), 1);
+  // The camera looks aside, but with the sphere's rim in a corner.
+  scene.camera.target = {1.9, 1.9, 0};
+  EXPECT_THAT(remarks(scene), IsEmpty());
 }
 
-TEST(Remarks, OfASceneWithoutShapesSayWhatIsLeftToSee) {
+TEST(Remarks, SayWhyAPictureIsBlackAndItIs) {
+  constexpr std::pair<void (*)(Scene&), const char*> kCases[] = {
+      {[](Scene& s) { s.lights.clear(); }, "no light: the picture is black"},
+      {[](Scene& s) {
+         s.lights = {PointLight{{0, 0, 3}, {0, 0, 0}}};
+       },
+       "no light shines"},
+      {[](Scene& s) {
+         s.lights = {PointLight{{0, 0.2, 0}, {1, 1, 1}}};
+       },
+       "light 0 is inside sphere 0"},
+      {[](Scene& s) { s.spheres.clear(); }, "shows nothing"},
+      {[](Scene& s) {
+         s.camera.origin = {0, 0, 0.5};
+       },
+       "inside sphere 0"},
+      {[](Scene& s) {
+         s.camera.target = {0, 0, 10};
+       },
+       "looks away"},
+  };
+  for (const auto& [change, remark] : kCases) {
+    Scene scene = plain();
+    change(scene);
+    EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr(remark)));
+    EXPECT_EQ(brightest(scene), 0) << remark;
+  }
+}
+
+TEST(Remarks, OfASceneWithoutShapesSayThatItsLightsAreLeftToSee) {
   Scene scene = plain();
   scene.spheres.clear();
-  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("shows nothing")));
-  EXPECT_EQ(brightest(scene), 0);
   scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};
   EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("its lights alone")));
   EXPECT_EQ(brightest(scene), 0.5f);
-}
-
-TEST(Remarks, OfACameraInsideASphereSayThatItDoesNotSeeIt) {
-  Scene scene = plain();
-  scene.camera.origin = {0, 0, 0.5};
-  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("inside sphere 0")));
-  EXPECT_EQ(brightest(scene), 0);
 }
 
 TEST(Remarks, OfACameraOnASphereSayThatItDoesNotSeeItAndThePictureIsBlackWhateverItsRounding) {
@@ -73,23 +82,6 @@ TEST(Remarks, OfACameraOnASphereSayThatItDoesNotSeeItAndThePictureIsBlackWhateve
     EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("on sphere 0"))) << i;
     EXPECT_EQ(brightest(scene), 0) << i;
   }
-}
-
-TEST(Remarks, OfACameraThatLooksAwaySaySoAndThePictureIsBlack) {
-  Scene scene = plain();
-  scene.camera.target = {0, 0, 10};
-  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("looks away")));
-  EXPECT_EQ(brightest(scene), 0);
-  // Aside, but with the sphere's rim in a corner.
-  scene.camera.target = {1.9, 1.9, 0};
-  EXPECT_THAT(remarks(scene), IsEmpty());
-}
-
-TEST(Remarks, OfALightInsideASphereSayThatItIsHidden) {
-  Scene scene = plain();
-  scene.lights = {PointLight{{0, 0.2, 0}, {1, 1, 1}}};
-  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("light 0 is inside sphere 0")));
-  EXPECT_EQ(brightest(scene), 0);
 }
 
 TEST(Remarks, AreFewWhateverTheNumberOfSpheres) {

@@ -32,19 +32,6 @@ TEST(Render, OfOneSampleIsTheSameBitForBitWhateverTheNumberOfThreads) {
   }
 }
 
-TEST(Render, TheSeedMovesTheSamplesAndNothingElse) {
-  Scene scene = canonical("oblique_45");
-  scene.sampler = {4, 1};
-  const Image a = render(scene, {}).image;
-  EXPECT_TRUE(same(a, render(scene, {}).image));
-  scene.sampler.seed = 2;
-  EXPECT_FALSE(same(a, render(scene, {}).image));
-  scene.sampler.sample_count = 1;
-  const Image centre = render(scene, {}).image;
-  scene.sampler.seed = 3;
-  EXPECT_TRUE(same(centre, render(scene, {}).image));
-}
-
 TEST(Kernels, DarkenALightAtTheHorizonInEveryPrecisionAtTheSameCosine) {
   // An RDF has no cosine to fade with: its highlight stands up to the horizon itself.
   Vec3Chunk normal{}, to_eye{}, to_light{};

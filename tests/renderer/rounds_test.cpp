@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "renderer/render.hpp"
+#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -14,10 +14,7 @@ Scene noisy() {
   scene.film = {64, 48};
   scene.sampler.sample_count = 16;
   scene.lights = {SphereLight{{2, 4, 2}, 0.7, {20, 20, 20}}};
-  Material matt;
-  matt.highlight = {*find_model("phong_rdf"), *find_lobe("cosine"), {}, 32};
-  matt.diffuse_reflectance = {0.5, 0.5, 0.5};
-  scene.materials = {matt};
+  scene.materials = {matt(0.5)};
   scene.spheres = {{{0, 1, 0}, 1, 0}};
   scene.planes = {{{0, 0, 0}, {0, 1, 0}}};
   return scene;

@@ -41,15 +41,6 @@ TEST(EffectScenes, HaveWhatTheirNamesSay) {
   EXPECT_EQ(read_scene(effects + "crowd.xml").spheres.size(), 10164u);
 }
 
-TEST(SceneWriter, KeepsEveryDigit) {
-  Scene original = read_scene(kScenes + "/two_lights.xml");
-  original.camera.fov_degrees = 28.072486935852954;
-  original.spheres[0].center = {1.0 / 3, -2e-9, 123456789.123456};
-  original.materials[0].highlight.exponent = 0.1 + 0.2;
-  original.sampler.seed = 9007199254740991u;
-  again(original);
-}
-
 TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint) {
   const Scene s = parse_scene(
       scene("<shape type=\"sphere\"><point name=\"center\" x=\"1\" z=\"3\"/>"

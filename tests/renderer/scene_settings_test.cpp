@@ -57,29 +57,24 @@ TEST(SceneFilter, OfEveryNameIsReadAndWrittenWithItsOwnRadiusOrAGivenOne) {
   EXPECT_EQ(with_sensor(kSensor).film.filter, Filter{});
 }
 
-TEST(SceneDepth, IsWhatTheIntegratorSays) {
-  const auto depth = [](const std::string& body) {
-    return again(parse_scene(scene(body), "s.xml")).depth;
+TEST(SceneDepth, IsWhatTheIntegratorSaysAndEightReflectionsWithAMirrorAndNoIntegrator) {
+  const auto scene_of = [](const std::string& body) {
+    return again(parse_scene(scene(body), "s.xml"));
   };
-  const std::string mirror = bsdf(given("rgb", "mirror_reflectance", "0, 0.5, 0"));
+  const std::string mirror = bsdf(given("rgb", "mirror_reflectance", "0.1, 0.5, 0.9"));
   const std::string both = "<integrator type=\"path\">" + given("integer", "mirror_depth", "5") +
                            given("integer", "glossy_depth", "64") + "</integrator>";
-  EXPECT_EQ(depth("").mirror, 0);
-  EXPECT_EQ(depth(both).mirror, 5);
-  EXPECT_EQ(depth(both).glossy, 64);
-  EXPECT_EQ(depth(both + mirror).mirror, 5);
-  EXPECT_EQ(depth("<integrator type=\"path\"/>" + mirror).mirror, 0);
-}
-
-TEST(SceneDepth, WithAMirrorAndNoIntegratorIsEightReflections) {
-  const Scene s =
-      again(parse_scene(scene(bsdf(given("rgb", "mirror_reflectance", "0.1, 0.5, 0.9"))), "s.xml"));
-  EXPECT_EQ(s.materials[0].mirror_reflectance, (Rgb{0.1, 0.5, 0.9}));
-  EXPECT_EQ(s.depth.mirror, kDefaultMirrorDepth);
-  EXPECT_EQ(s.depth.glossy, 0);
-  Scene without = s;
-  without.depth = {};
-  EXPECT_EQ(again(without).depth.mirror, 0) << "what was set by hand is kept";
+  EXPECT_EQ(scene_of("").depth.mirror, 0);
+  EXPECT_EQ(scene_of(both).depth.mirror, 5);
+  EXPECT_EQ(scene_of(both).depth.glossy, 64);
+  EXPECT_EQ(scene_of(both + mirror).depth.mirror, 5);
+  EXPECT_EQ(scene_of("<integrator type=\"path\"/>" + mirror).depth.mirror, 0);
+  Scene by_default = scene_of(mirror);
+  EXPECT_EQ(by_default.materials[0].mirror_reflectance, (Rgb{0.1, 0.5, 0.9}));
+  EXPECT_EQ(by_default.depth.mirror, kDefaultMirrorDepth);
+  EXPECT_EQ(by_default.depth.glossy, 0);
+  by_default.depth = {};
+  EXPECT_EQ(again(by_default).depth.mirror, 0) << "what was set by hand is kept";
 }
 
 TEST(SceneSettings, EveryErrorHasItsPlace) {

@@ -91,38 +91,24 @@ TEST(SceneLattices, AreMovedByTheGeneratorThatTheFormatNames) {
     return z ^ (z >> 31);
   };
   ASSERT_EQ(mix(0), kFirst);
-  const Scene s = read(lattice(2, 1, 1, given("float", "jitter", "1")));
-  const double u = double(mix(kFirst + 3) >> 11) / 9007199254740992.0;
-  EXPECT_DOUBLE_EQ(s.spheres[1].center.x, 1.5 + (1.5 - 1) * (2 * u - 1));
-}
-
-TEST(SceneLattices, KeepTheirSpheresApartAndFollowTheSeed) {
-  const auto with_seed = [](int seed) {
-    return read(lattice(
-                    20, 10, 5,
-                    given("float", "jitter", "1") + given("integer", "seed", std::to_string(seed))))
-        .spheres;
-  };
-  const auto spheres = with_seed(1), same = with_seed(1), others = with_seed(2);
-  double least = 1e9, most = 0;
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    EXPECT_EQ(spheres[i].center, same[i].center);
-    EXPECT_NE(spheres[i].center, others[i].center);
-    const double x = 3 * (double(i % 20) - 9.5);
-    most = std::max(most, std::abs(spheres[i].center.x - x));
-    for (std::size_t k = 0; k < i; ++k)
-      least = std::min(least, length(spheres[i].center - spheres[k].center));
+  for (const int seed : {0, 7}) {
+    // Along x the spheres are too large to move.
+    const Scene s = read(lattice(2, 3, 2,
+                                 given("float", "jitter", "0.7") + given("float", "radius", "1.8") +
+                                     given("integer", "seed", std::to_string(seed))));
+    ASSERT_EQ(s.spheres.size(), 12u);
+    std::uint64_t counter = mix(std::uint64_t(seed));
+    const auto along = [&](int place, int count, double step) {
+      const double u = double(mix(counter++) >> 11) / 9007199254740992.0;
+      return (place - 0.5 * (count - 1)) * step + 0.7 * std::max(0.0, step / 2 - 1.8) * (2 * u - 1);
+    };
+    for (int k = 0; k < 12; ++k) {
+      const Vec3 found = s.spheres[std::size_t(k)].center;
+      EXPECT_NEAR(found.x, along(k % 2, 2, 3), 1e-14) << k;
+      EXPECT_NEAR(found.y, along(k / 2 % 3, 3, 4), 1e-14) << k;
+      EXPECT_NEAR(found.z, along(k / 6, 2, 5), 1e-14) << k;
+    }
   }
-  EXPECT_GE(least, 2);  // two radii
-  EXPECT_LE(most, 0.5);
-  EXPECT_GT(most, 0.49);  // of 1000 uniform moves one is this near to the end
-}
-
-TEST(SceneLattices, OfTouchingSpheresDoNotMove) {
-  const Scene s = read(shape("sphere_lattice", given("integer", "columns", "3") +
-                                                   given("vector", "step", "1, 0, 0") +
-                                                   given("float", "jitter", "1")));
-  EXPECT_EQ(s.spheres[2].center, (Vec3{1, 0, 0}));
 }
 
 TEST(SceneLattices, AreCountedTogetherWithSpheresBeforeAnyIsMade) {

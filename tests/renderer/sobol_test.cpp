@@ -9,21 +9,6 @@
 namespace lobelia {
 namespace {
 
-TEST(Sobol, SecondDimensionIsThatOfItsDirectionNumbers) {
-  // Sobol's second primitive polynomial, x + 1, with m = 1: each direction number is the last one,
-  // xored with its half.
-  const auto by_direction_numbers = [](std::uint32_t index) {
-    std::uint32_t direction = 1u << 31, result = 0;
-    for (; index; index >>= 1, direction ^= direction >> 1)
-      if (index & 1) result ^= direction;
-    return result;
-  };
-  for (std::uint32_t i = 0; i < 100000; ++i) {
-    const std::uint32_t index = i < 50000 ? i : sobol::hash(i);
-    ASSERT_EQ(sobol::reverse_bits(sobol::second_reversed(index)), by_direction_numbers(index));
-  }
-}
-
 TEST(Sobol, EveryPairOfEveryPixelIsANetForEveryPowerOfTwo) {
   for (std::uint32_t pixel = 0; pixel < 50; ++pixel)
     for (std::uint32_t dimension = 0; dimension < 4; ++dimension)
@@ -51,13 +36,6 @@ TEST(Sobol, PairsArePaddedIndependently) {
     }
   // Of independent numbers the mean has a standard deviation of 1/12 over the root of their number.
   EXPECT_LT(std::abs(sum / (kPixels * kSamples)), 5.0 / 12 / std::sqrt(kPixels * kSamples));
-}
-
-TEST(Sobol, AnotherSeedOrPixelGivesOtherNumbers) {
-  EXPECT_NE(sobol::pixel_hash(0, 0), sobol::pixel_hash(1, 0));
-  EXPECT_NE(sobol::pixel_hash(0, 0), sobol::pixel_hash(0, 1));
-  EXPECT_NE(sobol::pixel_hash(1, 0), sobol::pixel_hash(0, 1));
-  EXPECT_NE(sobol::pixel_hash(std::uint64_t{1} << 32, 0), sobol::pixel_hash(0, 0));
 }
 
 }  // namespace

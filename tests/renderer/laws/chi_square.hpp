@@ -70,12 +70,12 @@ class ChiSquare {
  public:
   /// Draws from `sampled`, and compares with the pdf of `claimed`.
   ChiSquare(const Reflector& sampled, const Reflector& claimed, LobeAngle angle, double incidence,
-            std::uint64_t seed, int draws = 10000)
+            std::uint64_t seed)
       : to_eye_(frame_(incidence, 2)), coordinates_(frame_.normal, to_eye_, angle), random_(seed) {
     find_edges(sampled);
     const std::size_t rings = edges_.size() - 1;
     std::vector<double> drawn(rings * kSectors + 1), expected(rings * kSectors + 1);
-    for (int i = 0; i < draws; ++i) {
+    for (int i = 0; i < kDraws; ++i) {
       const auto sample = draw(sampled);
       drawn[sample ? bin(sample->to_light) : rings * kSectors] += 1;
     }
@@ -86,12 +86,12 @@ class ChiSquare {
         const double width = 2 * kPi / kSectors;
         const double p = coordinates_.integral(density, edges_[r], edges_[r + 1], width * double(k),
                                                width * double(k + 1));
-        expected[r * kSectors + kSectors / 2 + k] = draws * p;
-        expected[r * kSectors + kSectors / 2 - 1 - k] = draws * p;
+        expected[r * kSectors + kSectors / 2 + k] = kDraws * p;
+        expected[r * kSectors + kSectors / 2 - 1 - k] = kDraws * p;
         valid += 2 * p;
       }
     probability_of_light_ = valid;
-    expected.back() = draws * std::max(0.0, 1 - valid);
+    expected.back() = kDraws * std::max(0.0, 1 - valid);
     compare(drawn, expected);
   }
 
@@ -101,7 +101,7 @@ class ChiSquare {
   double probability_of_light() const { return probability_of_light_; }
 
  private:
-  static constexpr int kPilot = 256, kRings = 12;
+  static constexpr int kDraws = 10000, kPilot = 256, kRings = 12;
   static constexpr std::size_t kSectors = 8;
 
   std::optional<ReflectorSample> draw(const Reflector& reflector) {

@@ -3,14 +3,15 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <regex>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "renderer/operation_count.hpp"
+#include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/laws/cases.hpp"
-#include "tests/renderer/laws/chi_square.hpp"
-#include "tests/renderer/simple_scenes.hpp"
 
 namespace lobelia {
 namespace {
@@ -103,17 +104,6 @@ TEST(LobeByItsFormula, DrawsSamplesAsItsDensitySays) {
         before = s;
       }
       EXPECT_NEAR(sum / lobe.moment(0, 1), 1, 2e-4) << closed.formula << " n = " << n;
-    }
-}
-
-TEST(LobeByItsFormula, IsSampledByEveryModelAsOftenAsThePdfSays) {
-  std::uint64_t seed = 1;
-  for (const ModelId model : every_model())
-    for (const double degrees : {0.0, 60.0}) {
-      const Highlight h{model, formula_lobe("max(0, 1 - n*s/4)^2"), {}, 64};
-      const Reflector reflector({"", h, {1, 1, 1}, {}});
-      const ChiSquare test(reflector, reflector, info(model).angle, radians(degrees), seed++);
-      EXPECT_GT(test.p_value(), 1e-3) << text(h) << " at " << degrees << " degrees";
     }
 }
 

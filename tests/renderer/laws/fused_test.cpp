@@ -119,15 +119,6 @@ TEST(Fused, ALightNearTheSurfaceIsTheSameAndOneOnItIsLeftToWaves) {
   }
 }
 
-TEST(Fused, AnUnlitSceneIsBlack) {
-  Scene scene = one_sphere(33, 9);
-  scene.lights.clear();
-  EXPECT_EQ(difference(scene), "");
-  scene = one_sphere(33, 9);
-  scene.spheres.clear();
-  EXPECT_EQ(difference(scene), "");
-}
-
 TEST(Fused, TracesOnlyWhereASphereCanBeAndWhereItsHighlightReaches) {
   Scene scene = one_sphere(1024, 1024);
   const auto share = [&] {

@@ -83,18 +83,5 @@ TEST(EveryLobe, GivesNoSampleMoreWeightThanOneInTheMiddle) {
     });
 }
 
-TEST(ClosedForms, DrawEachAngleAsOftenAsTheLobeIsHigh) {
-  for (const char* name : {"cosine", "spherical_gaussian", "cs2", "cs12", "cs16", "cs64", "cs1024"})
-    for (const double n : kExponents) {
-      const PreparedLobe prepared = prepare(*find_lobe(name), n);
-      for (int i = 0; i < 200; ++i) {
-        const double s = std::min(1.0, 40 / n) * i / 200;
-        EXPECT_NEAR(prepared.density(s), prepared.density(0) * prepared.value(s),
-                    1e-14 * prepared.density(0))
-            << name << " " << n << " " << s;
-      }
-    }
-}
-
 }  // namespace
 }  // namespace lobelia

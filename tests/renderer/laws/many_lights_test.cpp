@@ -14,19 +14,16 @@
 namespace lobelia {
 namespace {
 
-Vec3 in_box(Random& random, double half) {
-  return {random.between(-half, half), random.between(-half, half), random.between(-half, half)};
-}
 Vec3 unit(Random& random) {
   for (;;)
-    if (const Vec3 v = in_box(random, 1); length(v) > 0.1) return normalize(v);
+    if (const Vec3 v = random.vector(); length(v) > 0.1) return normalize(v);
 }
 Rgb grey(double value) { return {value, value, value}; }
 
 /// A light above the ground, some thousand times as strong as another.
 Light lamp(Random& random, double half) {
   const double strength = std::pow(10, random.between(-2, 1));
-  Vec3 at = in_box(random, half);
+  Vec3 at = half * random.vector();
   at.y = 0.5 + std::abs(at.y);
   switch (int(random.between(0, 3))) {
     case 0:
@@ -39,7 +36,7 @@ Light lamp(Random& random, double half) {
 }
 Light area_light(Random& random, double half) {
   const double radiance = std::pow(10, random.between(-1, 1.5)), size = random.between(0.02, 0.3);
-  Vec3 at = in_box(random, half);
+  Vec3 at = half * random.vector();
   at.y = 0.5 + std::abs(at.y);
   if (random.between(0, 1) < 0.5) return SphereLight{at, size, grey(radiance)};
   const Vec3 normal = unit(random), u = normalize(cross(normal, unit(random)));
@@ -68,7 +65,7 @@ TEST(LightTree, DrawsEachLightAsOftenAsItSaysAndEveryOneThatShines) {
   for (int set = 0; set < 40; ++set) {
     const auto lights = many(random, set % 2 == 0, 70);
     const LightTree tree = tree_of(lights);
-    const Vec3 point = in_box(random, 3), normal = unit(random);
+    const Vec3 point = 3 * random.vector(), normal = unit(random);
     // Evenly spaced numbers fall into each light's share to within one of them for each of its edges.
     constexpr int kDraws = 20000;
     std::vector<int> counts(lights.size());
@@ -178,26 +175,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManyLights, testing::Bool(), [](const auto& info
 TEST_P(ManyLights, AreAsBrightAsTheSumOverEachWithinTheNoise) {
   Random random(GetParam() ? 4 : 5);
   for (int k = 0; k < (more_samples() == 1 ? 1 : 4); ++k) {
-    Scene scene = under_many_lights(random, GetParam());
-    RenderOptions drawn, summed;
+    const Scene scene = under_many_lights(random, GetParam());
+    RenderOptions summed;
     summed.experiment.sum_all_lights = true;
-    Blocks blocks[2];
-    std::uint64_t seed = 0;
-    double z = 0;
-    // A light that is rarely drawn makes a mean look certain that is not: what seems to differ is looked at again.
-    for (const auto& [pictures, allowed] :
-         {std::pair(16, 4.5), {64, 5.0}, {512, 5.5}, {2048, 6.0}}) {
-      while (blocks[0].count < pictures) {
-        scene.sampler.seed = ++seed;
-        blocks[0].add(render(scene, drawn).image);
-        scene.sampler.seed = ++seed;
-        if (blocks[1].count < std::min(pictures, 64)) blocks[1].add(render(scene, summed).image);
-      }
-      z = farthest(blocks[0], blocks[1]);
-      if (z < allowed) break;
-      ASSERT_LT(pictures, 2048) << "scene " << k << ": " << z << " sigma";
-    }
-    const RenderResult one = render(scene, drawn);
+    SCOPED_TRACE(k);
+    ASSERT_NO_FATAL_FAILURE(expect_the_same_light(
+        scene, {}, summed, {{16, 4.5}, {64, 5.0}, {512, 5.5}, {2048, 6.0}}, 64));
+    const RenderResult one = render(scene, {});
     ASSERT_TRUE(GetParam() ? one.plan.draws_area_light : one.plan.draws_lamp);
   }
 }
@@ -205,17 +189,11 @@ TEST_P(ManyLights, AreAsBrightAsTheSumOverEachWithinTheNoise) {
 TEST_P(ManyLights, AreTheSameWithEveryEffectForcedWithinTheNoise) {
   Random random(GetParam() ? 6 : 7);
   for (int k = 0; k < (more_samples() == 1 ? 1 : 2); ++k) {
-    Scene scene = under_many_lights(random, GetParam());
-    RenderOptions drawn, forced;
+    SCOPED_TRACE(k);
+    RenderOptions forced;
     forced.effects = EffectPolicy::kAll;
-    Blocks blocks[2];
-    for (int seed = 0; seed < 32; ++seed) {
-      scene.sampler.seed = std::uint64_t(2 * seed);
-      blocks[0].add(render(scene, drawn).image);
-      ++scene.sampler.seed;
-      blocks[1].add(render(scene, forced).image);
-    }
-    ASSERT_LT(farthest(blocks[0], blocks[1]), 5.5) << "scene " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_the_same_light(under_many_lights(random, GetParam()), {}, forced,
+                                                  {{32, 5.0}, {256, 5.5}}));
   }
 }
 

@@ -34,27 +34,5 @@ TEST(Pk, IsAsNearToTheCosineLobeAsItsFileSaysForEveryExponentFrom16On) {
   }
 }
 
-TEST(Pk, FallsAndEndsAtEveryExponent) {
-  // Some of its cubics rise again behind the right angle.
-  for (const char* name : {"pk3.1", "pk3.2", "pk3.3", "pk3.4"})
-    for (double n = 1; n < 1000; n *= 1.01) {
-      const PreparedLobe lobe = prepare(*find_lobe(name), n);
-      double previous = 1;
-      for (int i = 0; i <= 1000; ++i) {
-        const double s = 2 * i / 1000.0, value = lobe.value(s);
-        EXPECT_LE(value, previous * (1 + 1e-12)) << name << " n = " << n << " s = " << s;
-        EXPECT_TRUE(s < 1 || value == 0) << name << " n = " << n << " s = " << s;
-        previous = value;
-      }
-    }
-}
-
-TEST(Pk, HasFourMembersByName) {
-  EXPECT_EQ(find_lobe("pk3.2")->order, 4);
-  EXPECT_EQ(identifier(*find_lobe("pk3.2")), "pk3_2");
-  for (const char* name : {"pk", "pk3", "pk3.0", "pk3.5", "pk3.9", "pk4", "pk3_2", "pk3.20"})
-    EXPECT_FALSE(find_lobe(name)) << name;
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -83,7 +83,8 @@ TEST(Names, LeadBackToTheirEntries) {
   for (const ModelId id : every_model()) EXPECT_EQ(find_model(info(id).name), id);
   for (const LobeId& id : lobes()) EXPECT_EQ(find_lobe(info(id).name), id);
   EXPECT_FALSE(find_model("phong"));
-  for (const char* name : {"", "cs", "cs0", "cs1", "cs15", "cs1026", "cs-2", "cs016", "cs2 "})
+  for (const char* name : {"", "cs", "cs0", "cs1", "cs15", "cs1026", "cs-2", "cs016", "cs2 ", "pk",
+                           "pk3", "pk3.0", "pk3.5", "pk4", "pk3_2", "pk3.20"})
     EXPECT_FALSE(find_lobe(name)) << name;
 }
 

@@ -107,24 +107,12 @@ const std::vector<Idle>& idle_changes() {
          return std::all_of(s.materials.begin(), s.materials.end(),
                             [](const Material& m) { return is_black(m.mirror_reflectance); });
        }},
-      {"a ball of light of 1e-300",
+      {"a light of 1e-300 with a size",
        [](Scene& s, Random& random) {
-         s.lights.push_back(SphereLight{3 * random.vector(), 0.5, faint});
-         return true;
-       }},
-      {"a rectangle of light of 1e-300",
-       [](Scene& s, Random& random) {
-         s.lights.push_back(RectangleLight{3 * random.vector(), {1, 0, 0}, {0, 0, 1}, faint});
-         return true;
-       }},
-      {"an environment of 1e-300",
-       [](Scene& s, Random&) {
-         s.lights.push_back(ConstantLight{faint});
-         return true;
-       }},
-      {"an environment's picture of 1e-300",
-       [](Scene& s, Random&) {
-         s.lights.push_back(EnvmapLight{faint, sky(), "sky.exr"});
+         const Light lights[] = {SphereLight{3 * random.vector(), 0.5, faint},
+                                 RectangleLight{3 * random.vector(), {1, 0, 0}, {0, 0, 1}, faint},
+                                 ConstantLight{faint}, EnvmapLight{faint, sky(), "sky.exr"}};
+         s.lights.push_back(lights[random.below(4)]);
          return true;
        }},
       {"a lamp of every kind that does not shine",

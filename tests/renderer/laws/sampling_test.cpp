@@ -57,10 +57,9 @@ TEST(EverySampler, DrawsABlackSurfaceEvenlyAndSaysSo) {
 }
 
 /// Of the draws of one material against the pdf of another.
-double p_value(const Material& sampled, const Material& claimed, double degrees,
-               int draws = 10000) {
+double p_value(const Material& sampled, const Material& claimed, double degrees) {
   return ChiSquare(Reflector(sampled), Reflector(claimed), info(sampled.highlight.model).angle,
-                   radians(degrees), 1, draws)
+                   radians(degrees), 1)
       .p_value();
 }
 
@@ -70,17 +69,6 @@ TEST(TheTestOfSamplers, RejectsAnExponentTwiceAsLarge) {
     claimed.highlight.exponent *= 2;
     EXPECT_LT(p_value(material(h, false), claimed, 30), significance(10000)) << text(h);
   }
-}
-
-TEST(TheTestOfSamplers, RejectsAnExponentATenthTooLarge) {
-  for (const ModelId model : every_model())
-    for (const char* lobe : {"cosine", "cs16"})  // Schlick's hardly changes with the exponent
-      for (const double n : {16.0, 1024.0, 1e5}) {
-        const Highlight h{model, *find_lobe(lobe), Normalisation::kExact, n};
-        Material claimed = material(h, false);
-        claimed.highlight.exponent *= 1.1;
-        EXPECT_LT(p_value(material(h, false), claimed, 30, 40000), significance(10000)) << text(h);
-      }
 }
 
 TEST(TheTestOfSamplers, RejectsADiffuseBaseThatIsDrawnTooSeldom) {

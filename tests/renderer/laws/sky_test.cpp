@@ -51,22 +51,6 @@ Scene below_random_sky(Random& random) {
   return scene;
 }
 
-/// Pictures of other seeds, until they agree or are too many for chance.
-void expect_the_same_light(Scene scene, const RenderOptions& a, const RenderOptions& b) {
-  Blocks blocks[2];
-  std::uint64_t seed = 0;
-  for (const auto& [pictures, allowed] : {std::pair(32, 4.5), {128, 5.0}, {1024, 5.5}}) {
-    while (blocks[0].count < pictures)
-      for (const int k : {0, 1}) {
-        scene.sampler.seed = ++seed;
-        blocks[k].add(render(scene, k == 0 ? a : b).image);
-      }
-    const double z = farthest(blocks[0], blocks[1]);
-    if (z < allowed) return;
-    ASSERT_LT(pictures, 1024) << z << " sigma";
-  }
-}
-
 TEST(RandomSkies, BringTheSameLightAsRaysThatAreDrawnEvenly) {
   Random random(11);
   RenderOptions even;

@@ -131,15 +131,5 @@ TEST_F(HighlightTables, AreDenseEnoughInIncidenceForACubicThroughFourNeighbours)
   }
 }
 
-TEST_F(HighlightTables, BeginAtThePeakAndEndAtNormalIncidence) {
-  for (const Json& lobe : (*table_)["lobes"])
-    for (const Json& curve : lobe["curves"])
-      EXPECT_EQ(curve_value(lobe, curve[0].get<double>()), 1);
-  for (const Json& highlight : (*table_)["highlights"]) {
-    if (highlight["model"] != "modified_phong") continue;
-    for (const Json& seen : highlight["seen"]) EXPECT_EQ(seen.back(), 0) << "energy 1, exactly";
-  }
-}
-
 }  // namespace
 }  // namespace lobelia
