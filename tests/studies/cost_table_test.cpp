@@ -89,24 +89,17 @@ TEST(ParetoFront, IsThatOfTheDefinitionForAnyVariantsAndBeginsWithTheFastest) {
 }
 
 TEST(FrontSentences, SayWhatMoreAccuracyCosts) {
-  const Table t = table(
-      {variant("cs16", 1, 0.017), variant("cosine", 1.8, 0.0001), variant("gauss", 2.7, 0.0002)});
-  EXPECT_THAT(pareto_front(t, 0).in_words,
+  const auto in_words = [](std::vector<Variant> variants) {
+    return pareto_front(table(std::move(variants)), 0).in_words;
+  };
+  EXPECT_THAT(in_words({variant("cs16", 1, 0.017), variant("cosine", 1.8, 0.0001),
+                        variant("gauss", 2.7, 0.0002)}),
               ElementsAre("from cs16 to cosine: 1.8 times the time, 170 times less error",
                           "gauss takes 1.5 times the time of cosine and has 2.0 times its error"));
-}
-
-TEST(FrontSentences, SayLargeRatiosInTwoDigits) {
-  const Table t = table({variant("float32", 1, 2e-6), variant("float64", 2, 3.1e-15)});
-  EXPECT_THAT(pareto_front(t, 0).in_words,
+  EXPECT_THAT(in_words({variant("float32", 1, 2e-6), variant("float64", 2, 3.1e-15)}),
               ElementsAre("from float32 to float64: 2.0 times the time, 6.5e+08 times less error"));
-}
-
-TEST(FrontSentences, AreNotUpsetByVariantsWithoutAnyError) {
-  const Table t =
-      table({variant("cs16", 1, 0.017), variant("exact", 2, 0), variant("other", 4, 0)});
   EXPECT_THAT(
-      pareto_front(t, 0).in_words,
+      in_words({variant("cs16", 1, 0.017), variant("exact", 2, 0), variant("other", 4, 0)}),
       ElementsAre("from cs16 to exact: 2.0 times the time, infinitely many times less error",
                   "other takes 2.0 times the time of exact and has its error"));
 }
@@ -157,7 +150,7 @@ TEST(CostChart, IsXmlWithAPointForEachVariantEvenWhereItHasNoError) {
   EXPECT_THAT(points[0].node().child("title").text().as_string(), HasSubstr("slow, \"but\""));
 }
 
-TEST(CountedTables, SayWhatTheyCountInEveryForm) {
+TEST(CountedTables, SayWhatTheyCountInEveryFormAndHowFarADrawnErrorIsToBeTrusted) {
   records::Cost counted = report();
   counted.tables = {counted_table({variant("8 bits", 64, 0.1), variant("16 bits", 256, 0.001)})};
   const Table& table = counted.tables[0];
@@ -166,20 +159,13 @@ TEST(CountedTables, SayWhatTheyCountInEveryForm) {
   EXPECT_THAT(cost_text(counted, true), AllOf(Not(HasSubstr("%")), Not(HasSubstr("256 s"))));
   EXPECT_THAT(cost_chart(table, 0), HasSubstr(">bit operations per evaluation<"));
   EXPECT_THAT(cost_chart(table, 0), HasSubstr("16 bits: 256 bit operations, max 0.001"));
-}
-
-TEST(CountedTables, SayHowFarADrawnErrorIsToBeTrusted) {
-  records::Cost counted = report();
-  counted.tables = {counted_table({variant("8 bits", 64, 0.1), variant("16 bits", 256, 0.001)})};
-  counted.tables[0].variants[0].error_spreads = {{"max", 1e-5}};
-  counted.tables[0].variants[1].error_spreads = {{"max", 0.002}};
-  const std::string text = cost_text(counted, true);
-  EXPECT_THAT(text, AllOf(HasSubstr(" 0.1  max"), HasSubstr(" 0.001+-0.002  max")));
-}
-
-TEST(TimedTables, SayThatTheyAreOfSeconds) {
   EXPECT_THAT(cost_csv(report()), HasSubstr(",evaluation,s,1e-09,"));
   EXPECT_THAT(cost_chart(report().tables[0], 0), HasSubstr(">ns per evaluation<"));
+
+  counted.tables[0].variants[0].error_spreads = {{"max", 1e-5}};
+  counted.tables[0].variants[1].error_spreads = {{"max", 0.002}};
+  EXPECT_THAT(cost_text(counted, true),
+              AllOf(HasSubstr(" 0.1  max"), HasSubstr(" 0.001+-0.002  max")));
 }
 
 TEST(CostChart, CanBeDrawnOfNothing) {

@@ -30,17 +30,6 @@ TEST(HalfFloats, OfEveryExportedLobeHoldWithSubnormalsAndWithout) {
         }
 }
 
-TEST(HalfFloats, WouldLoseATenthOfThePeakToFlushedSubnormalsWithoutTheScaleOfTheExports) {
-  const LobeId lobe = *find_lobe("cs16");
-  for (const LobeAngle angle : kAngles) {
-    const auto error = [&](HalfForm form) {
-      return half_errors(form, angle, lobe, 1024, Subnormals::kFlushed).all;
-    };
-    EXPECT_GT(error(HalfForm::kStable), 0.09);  // measured 0.106
-    EXPECT_LT(error(HalfForm::kExported), 0.045);
-  }
-}
-
 TEST(TheTableForPhones, HasTheFiguresOfTheProgram) {
   const std::string page =
       read_file(std::filesystem::path(LOBELIA_SOURCE_DIR) / "docs/export.md", 1 << 20);

@@ -72,17 +72,6 @@ TEST(PaperAlbedo, is_what_a_sum_over_all_directions_gives) {
       }
 }
 
-TEST(PaperAlbedo, of_the_eye_at_normal_incidence_is_the_energy_of_the_table) {
-  for (const RowNumber number : {kPhong, kModifiedPhong, kBlinn, kModifiedBlinn})
-    for (const Lobe lobe : {Lobe::kCosine, Lobe::kCs16})
-      for (const Real n : {16.0L, 100.0L, 1024.0L}) {
-        const Row& row = kRows[number];
-        EXPECT_NEAR(albedo(row, lobe, n, row.column(lobe)(n), 0, Held::kEye),
-                    double(energy(row, lobe, n)), 1e-9)
-            << row.title;
-      }
-}
-
 TEST(PaperSearch, finds_a_maximum_between_two_points_of_the_scan_and_at_an_end) {
   const auto parabola = [](Real x) { return 5 - (x - 0.37L) * (x - 0.37L); };
   EXPECT_NEAR(double(largest(parabola, 0, 1, 4).at), 0.37, 1e-6);
