@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "compare/compare.hpp"
+#include "compare/metrics/pixel_differences.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia {
@@ -110,25 +110,6 @@ TEST(Percentile, IsTheValueOfThatRankOfAnySortedFloats) {
       for (const std::size_t rank : {std::size_t{0}, count / 3, count / 2, count - 1})
         EXPECT_EQ(nth_value(values, rank), sorted[rank]) << count << ", " << rank;
     }
-}
-
-TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
-  // 200 greys, each farther from white than the one before, in an order that is not sorted.
-  const Image reference = fixtures::flat(200, 1, 1, 1, 1);
-  Image picture = reference;
-  std::vector<float> sorted;
-  for (int i = 0; i < 200; ++i) {
-    const int x = i * 77 % 200;
-    for (float& value : picture.pixel(x, 0)) value = 1 - float(i) / 256;
-    const double grey = double(picture.pixel(x, 0)[0]);
-    sorted.push_back(
-        float(ciede2000(lab_from_display({grey, grey, grey}), lab_from_display({1, 1, 1}))));
-  }
-  const Comparison comparison = compare(picture, reference, {});
-  EXPECT_EQ(comparison.value("ciede2000.p50"), double(sorted[99]));
-  EXPECT_EQ(comparison.value("ciede2000.p95"), double(sorted[189]));
-  EXPECT_EQ(comparison.value("ciede2000.p99"), double(sorted[197]));
-  EXPECT_EQ(comparison.value("ciede2000.max"), double(sorted[199]));
 }
 
 /// The formula as it stands, by the functions of the standard library.

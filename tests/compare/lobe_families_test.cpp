@@ -71,17 +71,6 @@ TEST(LobeFamilies, NameTheLobeThatMadeTheHighlight) {
   }
 }
 
-TEST(LobeFamilies, KnowWhetherTheCosineOfTheLightBelongsToTheLobe) {
-  const auto found =
-      explain_highlight(sphere([](Vec3 normal, Vec3, Vec3 light, Vec3 half) {
-                          return dot(normal, light) * std::pow(dot(normal, half), 60);
-                        }),
-                        false);
-  EXPECT_EQ(found[0].family, LobeFamily::kBlinnPhong);
-  EXPECT_TRUE(found[0].times_n_dot_l);
-  EXPECT_NEAR(found[0].fit.width, 60, 1e-5);
-}
-
 TEST(LobeFamilies, FindTheRoughnessOfMicrofacets) {
   for (const double alpha : {0.06, 0.128, 0.35}) {
     const auto found =
@@ -162,14 +151,6 @@ TEST(LobeFamilies, WithSharedNoiseHaveTheWorseError) {
   const std::vector<SeenLobe> pixels = noisy(blinn_phong(121), 0.02, true, random);
   EXPECT_GT(explain_highlight(pixels, true)[0].fit.standard_error,
             2 * explain_highlight(pixels, false)[0].fit.standard_error);
-}
-
-TEST(LobeFamilies, OfNothingSayWhy) {
-  for (const FamilyFit& one : explain_highlight({}, false)) EXPECT_NE(one.fit.why_not, "");
-  std::vector<SeenLobe> dark = blinn_phong(121);
-  for (SeenLobe& pixel : dark) pixel.radiance = 0;
-  for (const FamilyFit& one : explain_highlight(dark, false))
-    EXPECT_EQ(one.fit.why_not, "it holds no light");
 }
 
 }  // namespace

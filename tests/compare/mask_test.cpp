@@ -78,12 +78,6 @@ TEST(MaskShapes, ThatAreMalformedAreRefusedInOneSentence) {
     }
 }
 
-TEST(MaskShapes, OfAPictureNeedItsSize) {
-  const MaskShape shape{"mask.png", fixtures::flat(4, 3, 0, 0.5f, 0)};
-  EXPECT_EQ(std::ranges::count(pixels_inside({&shape, 1}, 4, 3), 1), 12);
-  EXPECT_THROW(pixels_inside({&shape, 1}, 3, 4), Error);
-}
-
 PixelFlags random_mask(std::size_t pixels, unsigned seed) {
   std::mt19937 random(seed);
   PixelFlags mask(pixels);

@@ -1,6 +1,7 @@
 // Pictures with noise of kinds that renderers make, around an expectation that is known.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -37,61 +38,53 @@ inline const char* name(NoiseKind kind) {
 
 inline constexpr int kNoisySide = 48;
 
-/// The three channels err together, as under a white light. `strength` divides all noise.
+/// The share of a pixel that a disc covers, where it is neither all nor nothing.
+inline double covered_by_disc(double u, double v) {
+  return 0.5 + (0.7 - std::hypot(u, v)) * kNoisySide / 2;
+}
+
+/// The three channels err together, as under a white light.
 inline Image noisy(NoiseKind kind, std::uint64_t seed, int samples) {
   Uniform uniform(seed);
-  Image image(kNoisySide, kNoisySide);
-  for (int y = 0; y < kNoisySide; ++y)
-    for (int x = 0; x < kNoisySide; ++x) {
-      const double u = (x + 0.5) / kNoisySide * 2 - 1, v = (y + 0.5) / kNoisySide * 2 - 1;
-      double value = 0.5;
-      const double normal =
-          std::sqrt(-2 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
-      switch (kind) {
-        case NoiseKind::kEven:
-          value += 0.3 * normal / std::sqrt(samples);
-          break;
-        case NoiseKind::kHighlight: {
-          double product = 0;
-          for (int k = 0; k < samples; ++k) product -= std::log(uniform());
-          value = 3 * std::exp(-20 * (u * u + v * v)) * product / samples;
-          break;
-        }
-        case NoiseKind::kEdge:
-          if (u + 0.4 * v > 0.1) value += 0.3 * normal / std::sqrt(samples);
-          break;
-        case NoiseKind::kSilhouette: {
-          const double covered = 0.5 + (0.7 - std::hypot(u, v)) * kNoisySide / 2;
-          int hits = 0;
-          for (int k = 0; k < samples; ++k) hits += uniform() < covered;
-          value = double(hits) / samples;
-          break;
-        }
-        case NoiseKind::kFireflies:
-          value += 0.05 * normal / std::sqrt(samples);
-          // Of expectation 0, so that a pixel without one is not too dark.
-          if (uniform() < 0.002) value += 20 * (uniform() < 0.5 ? 1 : -1);
-          break;
+  return reddish(kNoisySide, kNoisySide, [&](double u, double v) {
+    double value = 0.5;
+    const double normal =
+        std::sqrt(-2 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
+    switch (kind) {
+      case NoiseKind::kEven:
+        value += 0.3 * normal / std::sqrt(samples);
+        break;
+      case NoiseKind::kHighlight: {
+        double product = 0;
+        for (int k = 0; k < samples; ++k) product -= std::log(uniform());
+        value = 3 * std::exp(-20 * (u * u + v * v)) * product / samples;
+        break;
       }
-      const auto pixel = image.pixel(x, y);
-      pixel[0] = float(value), pixel[1] = float(0.8 * value), pixel[2] = float(0.6 * value);
+      case NoiseKind::kEdge:
+        if (u + 0.4 * v > 0.1) value += 0.3 * normal / std::sqrt(samples);
+        break;
+      case NoiseKind::kSilhouette: {
+        int hits = 0;
+        for (int k = 0; k < samples; ++k) hits += uniform() < covered_by_disc(u, v);
+        value = double(hits) / samples;
+        break;
+      }
+      case NoiseKind::kFireflies:
+        value += 0.05 * normal / std::sqrt(samples);
+        // Of expectation 0, so that a pixel without one is not too dark.
+        if (uniform() < 0.002) value += 20 * (uniform() < 0.5 ? 1 : -1);
+        break;
     }
-  return image;
+    return value;
+  });
 }
 
 inline Image expectation(NoiseKind kind) {
-  Image image(kNoisySide, kNoisySide);
-  for (int y = 0; y < kNoisySide; ++y)
-    for (int x = 0; x < kNoisySide; ++x) {
-      const double u = (x + 0.5) / kNoisySide * 2 - 1, v = (y + 0.5) / kNoisySide * 2 - 1;
-      double value = 0.5;
-      if (kind == NoiseKind::kHighlight) value = 3 * std::exp(-20 * (u * u + v * v));
-      if (kind == NoiseKind::kSilhouette)
-        value = std::clamp(0.5 + (0.7 - std::hypot(u, v)) * kNoisySide / 2, 0.0, 1.0);
-      const auto pixel = image.pixel(x, y);
-      pixel[0] = float(value), pixel[1] = float(0.8 * value), pixel[2] = float(0.6 * value);
-    }
-  return image;
+  return reddish(kNoisySide, kNoisySide, [kind](double u, double v) {
+    if (kind == NoiseKind::kHighlight) return 3 * std::exp(-20 * (u * u + v * v));
+    if (kind == NoiseKind::kSilhouette) return std::clamp(covered_by_disc(u, v), 0.0, 1.0);
+    return 0.5;
+  });
 }
 
 /// The mean of `count` replicates of `samples` samples each.

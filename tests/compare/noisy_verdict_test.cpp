@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "compare/compare.hpp"
-#include "core/error.hpp"
 #include "tests/compare/noisy_pictures.hpp"
 
 namespace lobelia {
@@ -90,6 +89,7 @@ TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
   const Comparison comparison = compare(a, b, options);
   EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
   EXPECT_FALSE(comparison.uncertainty);
+  EXPECT_TRUE(comparison.metrics.empty());
   for (const LimitResult& limit : comparison.limits) EXPECT_FALSE(limit.pass);
   const Image halves[] = {a, b};
   EXPECT_EQ(compare(mean_of_replicates(halves, false).image, b, options).nonfinite.a, 1);
@@ -101,20 +101,6 @@ TEST(NoisyVerdict, OfALimitThatCouldNotBeMeasuredIsUndecided) {
   options.noise = NoiseOptions{.a = fixtures::even_noise(4, 4, 1)};
   const Image small = fixtures::flat(4, 4, 1, 1, 1);
   EXPECT_EQ(compare(small, small, options).verdict, Verdict::kUndecided);
-}
-
-TEST(NoisyVerdict, IsRefusedForOptionsOutOfRange) {
-  ComparisonOptions options;
-  options.limits = {{"z.max", 5}};
-  EXPECT_THROW(check_options(options), Error) << "there is no z without noise";
-  options.noise = NoiseOptions{};
-  EXPECT_NO_THROW(check_options(options));
-  for (const double significance : {0.0, 1.0, -1.0, std::nan("")}) {
-    options.noise->significance = significance;
-    EXPECT_THROW(check_options(options), Error) << significance;
-  }
-  options.noise = NoiseOptions{.bootstraps = 3};
-  EXPECT_THROW(check_options(options), Error);
 }
 
 }  // namespace

@@ -31,17 +31,23 @@ inline Image noise(int width, int height, std::uint64_t seed, float scale) {
   return image;
 }
 
-/// A highlight in the middle: exp(-sharpness * distance^2), the sides of the picture at 1.
-inline Image highlight(int width, int height, double sharpness, double peak) {
+/// Of value(u, v), which run from -1 to 1; red is the strongest.
+template <class Value>
+Image reddish(int width, int height, Value value) {
   Image image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const double u = (x + 0.5) / width * 2 - 1, v = (y + 0.5) / height * 2 - 1;
-      const double value = peak * std::exp(-sharpness * (u * u + v * v));
+      const double here = value((x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1);
       const auto pixel = image.pixel(x, y);
-      pixel[0] = float(value), pixel[1] = float(0.8 * value), pixel[2] = float(0.6 * value);
+      pixel[0] = float(here), pixel[1] = float(0.8 * here), pixel[2] = float(0.6 * here);
     }
   return image;
+}
+
+/// A highlight in the middle: exp(-sharpness * distance^2), the sides of the picture at 1.
+inline Image highlight(int width, int height, double sharpness, double peak) {
+  return reddish(width, height,
+                 [&](double u, double v) { return peak * std::exp(-sharpness * (u * u + v * v)); });
 }
 
 /// Pixel `index` in reading order, by itself.

@@ -129,17 +129,6 @@ TEST(Profile, DoesNotHideANaN) {
   EXPECT_EQ(record["images"]["broken"]["peak"], "nan");
 }
 
-TEST(Profile, OfASceneWithoutALitPixelIsEmptyAndSaysSo) {
-  const std::vector<double> nowhere(4, std::numeric_limits<double>::quiet_NaN()), solid(4, 1.0);
-  const Image image(2, 2);
-  const Profile profile =
-      measure_profile({nowhere, solid, {0.1, 0.15, 0.2}}, {{"a", &image}, {"b", &image}}, {{0, 1}});
-  EXPECT_TRUE(profile.angle.empty());
-  EXPECT_TRUE(std::isnan(profile.shapes[0].peak));
-  EXPECT_EQ(profile.differences[0].zones[0].pixels, 0u);
-  EXPECT_TRUE(std::isnan(profile.differences[0].zones[0].rms));
-}
-
 /// A patch with all that figures of the highlight need: flat, unit scale, over a base.
 struct FullPatch : Patch {
   static constexpr double kBase = 0.5;
@@ -187,39 +176,14 @@ TEST(HighlightFigures, SayWhatKeepsThemFromBeingMeasured) {
   const auto of = [&](const Image& image, double end) {
     return measure_profile(patch.full(end / 3, end / 2, end), {{"a", &image}}, {}).figures.at(0);
   };
-  const Image base = patch.image([](double) { return FullPatch::kBase; });
-  EXPECT_EQ(of(base, 30).why_not, "it is black");
-  EXPECT_EQ(of(base, 30).cosine.why_not, "it holds no light");
   const Image black(Patch::kSize, Patch::kSize);
   EXPECT_EQ(of(black, 30).why_not, "it is black") << "below the base is no light either";
   const Image narrow =
       patch.image([&](double angle) { return FullPatch::kBase + gaussian_of_width(angle, 0.7); });
-  EXPECT_EQ(of(narrow, 3).why_not,
-            "not resolved: 5 pixels are above half of its peak, 9 are needed");
-  EXPECT_TRUE(std::isnan(of(narrow, 3).along.pixels));
   Image broken = narrow;
   broken.pixel(Patch::kSize / 2 + 3, Patch::kSize / 2)[1] = std::nanf("");
   EXPECT_EQ(of(broken, 3).why_not, "1 of its pixels are not finite");
   EXPECT_TRUE(std::isnan(of(broken, 3).centroid.x) && std::isnan(of(broken, 3).energy));
-}
-
-TEST(ProfileRecord, HasWhatTheDocumentationPromises) {
-  const Patch patch;
-  const Image image = patch.image([](double angle) { return gaussian_of_width(angle, 10); });
-  const Json record =
-      as_json(profile_record(measure_profile(patch.geometry(10, 18, 31.5),
-                                             {{"analytic", &image}, {"lobelia", &image}}, {{1, 0}}),
-                             1, 2, "half_vector"));
-  EXPECT_EQ(record["kind"], "profile");
-  EXPECT_EQ(record["light"], 1);
-  EXPECT_EQ(record["sphere"], 2);
-  EXPECT_EQ(record["angle"], "half_vector");
-  EXPECT_EQ(record["zones"]["epicentreDegrees"][0], 0.0);
-  EXPECT_NEAR(record["zones"]["epicentreDegrees"][1].get<double>(), 10, 1e-9);
-  EXPECT_NEAR(record["zones"]["flankDegrees"][0].get<double>(), 10, 1e-9);
-  EXPECT_NEAR(record["zones"]["bloomingDegrees"][0].get<double>(), 18, 1e-9);
-  EXPECT_NEAR(record["zones"]["bloomingDegrees"][1].get<double>(), 31.5, 1e-9);
-  EXPECT_EQ(record["differences"]["lobelia-analytic"]["flank"]["rms"], 0.0);
 }
 
 }  // namespace

@@ -74,14 +74,6 @@ TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
       << "a record in which little is missing";
 }
 
-TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
-  const Image grey = fixtures::flat(16, 16, 1, 1, 1), black = fixtures::flat(16, 16, 0, 0, 0);
-  const records::Comparison made = record(grey, black, {});
-  EXPECT_EQ(as_written(made)["metrics"]["max_rel_peak"], "inf");
-  EXPECT_EQ(as_written(made)["metrics"]["psnr"], "-inf");
-  EXPECT_EQ(schema_problems(made), "");
-}
-
 /// With what two files add to it: layers that pass, differ, are broken and have two sizes.
 records::Comparison record_of_files() {
   const Image good = fixtures::flat(16, 16, 1, 1, 1), other = fixtures::flat(16, 16, 2, 2, 2);
