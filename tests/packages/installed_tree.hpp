@@ -1,8 +1,10 @@
 // The built tree, installed in a directory with a blank and then moved, as a user may do.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
@@ -21,6 +23,16 @@ using house::write;
 
 inline bool has_program(const std::string& name) {
   return run("command -v " + name).exit_code == 0;
+}
+
+/// And links, relative to `directory`, sorted.
+inline std::vector<std::string> files_below(const fs::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(directory))
+    if (!entry.is_directory() || entry.is_symlink())
+      names.push_back(entry.path().lexically_relative(directory).string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 class InstalledTree {

@@ -43,14 +43,3 @@ def test_the_wheel_works_where_it_is_unpacked(tmp_path):
     run = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", suite],
                          cwd=tmp_path, env=environment, capture_output=True, text=True)  # fmt: skip
     assert "1 passed" in run.stdout, run.stdout + run.stderr
-
-
-def test_what_cmake_installs_works_where_it_is(tmp_path):
-    """The layout of Debian's package."""
-    build = os.environ["LOBELIA_BUILD"]
-    subprocess.run(["cmake", "--install", build, "--prefix", tmp_path], check=True,
-                   stdout=subprocess.DEVNULL)  # fmt: skip
-    place = tmp_path / "lib/python3/dist-packages"
-    done = subprocess.run([sys.executable, "-c", CODE], cwd=tmp_path, capture_output=True, text=True,
-                          env={**os.environ, "PYTHONPATH": str(place)})  # fmt: skip
-    assert done.stdout.strip() == str(place / "lobelia/__init__.py"), done.stderr

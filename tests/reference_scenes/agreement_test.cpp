@@ -28,13 +28,8 @@ constexpr int kAllowedOutliers = 3;
 /// Pixels whose ray meets a checker's edge within the rounding of float32, of far squares by the dozen.
 constexpr int kCheckerOutliers = 9;
 
-class Agreement : public testing::TestWithParam<std::string> {
+class Agreement : public WithRealEngine {
  protected:
-  void SetUp() override {
-    engine_ = make_engine(GetParam(), {});
-    require_engine(*engine_);
-  }
-
   void expect_agreement(const std::vector<NamedScene>& named, int outliers = kAllowedOutliers) {
     const Tolerance tolerance = tolerance_of(GetParam());
     std::vector<Scene> scenes;
@@ -74,8 +69,6 @@ class Agreement : public testing::TestWithParam<std::string> {
     });
     EXPECT_EQ(results, scenes.size());
   }
-
-  std::unique_ptr<Engine> engine_;
 };
 
 TEST_P(Agreement, OfEveryModelWithEveryLobe) {
@@ -152,21 +145,10 @@ TEST_P(Agreement, OfALobeWiderThanAHemisphere) {
 
 TEST_P(Agreement, WhateverTheUnitsOfTheScene) {
   std::vector<NamedScene> scenes;
-  for (const double size : {1e-4, 1e4}) {
-    Scene scene = shadow_scene({"modified_phong", "cs16", "exact", 50},
-                               {point_light({2, 4, 8}), directional_at(30)}, 96);
-    const auto place = [&](Vec3 point) { return size * (point + Vec3{30, -20, 10}); };
-    scene.camera.origin = place(scene.camera.origin);
-    scene.camera.target = place(scene.camera.target);
-    for (Sphere& sphere : scene.spheres) {
-      sphere.center = place(sphere.center);
-      sphere.radius *= size;
-    }
-    auto& light = std::get<PointLight>(scene.lights[0]);
-    light.position = place(light.position);
-    light.intensity = size * size * light.intensity;
-    scenes.push_back({fmt::format("size {}", size), scene});
-  }
+  const Scene scene = shadow_scene({"modified_phong", "cs16", "exact", 50},
+                                   {point_light({2, 4, 8}), directional_at(30)}, 96);
+  for (const double size : {1e-4, 1e4})
+    scenes.push_back({fmt::format("size {}", size), moved(scene, size, {30, -20, 10})});
   expect_agreement(scenes);
 }
 
@@ -198,12 +180,7 @@ TEST_P(Agreement, OfLampsThatLieInPlanes) {
     for (const Vec3 away : {Vec3{}, Vec3{3e3, -1e3, 2e3}}) {
       Scene scene = ground_scene({model, "cosine", "exact", 20}, {}, 64);
       scene.lights = lamps_in_planes(scene);
-      for (Vec3* place : {&scene.camera.origin, &scene.camera.target}) *place = *place + away;
-      for (Sphere& sphere : scene.spheres) sphere.center = sphere.center + away;
-      for (Plane& plane : scene.planes) plane.point = plane.point + away;
-      for (Light& light : scene.lights)
-        std::get<PointLight>(light).position = std::get<PointLight>(light).position + away;
-      scenes.push_back({fmt::format("{}, {} away", model, away.x), scene});
+      scenes.push_back({fmt::format("{}, {} away", model, away.x), moved(scene, 1, away)});
     }
   expect_agreement(scenes, kCheckerOutliers);
 }

@@ -5,9 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/version.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -57,7 +55,6 @@ TEST(Analytic, AndWeAgreeCloseToAHighlightThatAMirrorPlaneShowsToo) {
 /// along the surface's normal by so many times the closeness of docs/conventions.md.
 Scene hall_of_lamps_on_surfaces(double aside, double scale, Vec3 away) {
   Scene scene = hall_scene(kChoice, 48);
-  const auto place = [&](Vec3 v) { return scale * (v + away); };
   const Vec3 wall = scene.planes[1].normal, on_sphere = normalize({0.5, 0.3, 1});
   const Sphere body = scene.spheres[0];
   const double corner = -4 - (wall.x * -1.5) / wall.z;
@@ -67,16 +64,7 @@ Scene hall_of_lamps_on_surfaces(double aside, double scale, Vec3 away) {
       PointLight{Vec3{0, 0, -4} + Vec3{wall.z, 0, -wall.x} + aside * close * wall, {4, 2, 3}},
       PointLight{body.center + (body.radius + aside * close) * on_sphere, {1, 2, 1}},
       PointLight{{-1.5, 0, corner}, {3, 3, 5}, normalize({0.5, 1, 1})}};
-  for (Light& light : scene.lights) {
-    auto& lamp = std::get<PointLight>(light);
-    lamp.position = place(lamp.position);
-    lamp.intensity = scale * scale * lamp.intensity;
-  }
-  scene.camera.origin = place(scene.camera.origin);
-  scene.camera.target = place(scene.camera.target);
-  for (Sphere& sphere : scene.spheres) sphere.center = place(sphere.center), sphere.radius *= scale;
-  for (Plane& plane : scene.planes) plane.point = place(plane.point), plane.checker_size *= scale;
-  return scene;
+  return moved(scene, scale, away);
 }
 
 TEST(Analytic, AndWeAgreeOnLampsOnSurfacesAndAHairBesideThem) {
@@ -85,18 +73,6 @@ TEST(Analytic, AndWeAgreeOnLampsOnSurfacesAndAHairBesideThem) {
       for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
         expect_agreement(fmt::format("scale {}, {} away, {} aside", scale, away.x, aside),
                          hall_of_lamps_on_surfaces(aside, scale, away));
-}
-
-TEST(Analytic, IsAlwaysThereAndSaysWhatItIs) {
-  const auto engine = make_engine("analytic", {});
-  EXPECT_TRUE(engine->status().available());
-  EXPECT_EQ(engine->status().version, kVersion);
-  const ReferenceResult quick = evaluated(hall_scene(kChoice, 16));
-  EXPECT_EQ(quick.record.shading, "analytic");
-  EXPECT_EQ(quick.record.engine.version, kVersion);
-  EXPECT_THAT(quick.record.method, HasSubstr("double precision"));
-  EXPECT_GT(quick.record.seconds.total, 0);
-  EXPECT_THROW(make_engine("analytic", "some/program"), Error);
 }
 
 TEST(Analytic, InItsFinerArithmeticRoundsToTheSamePictureButForLastDigits) {

@@ -13,7 +13,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-/// Blender's own first scene, in both views of a stereo camera if asked.
+/// Blender's own first scene.
 constexpr const char* kScript = R"(
 import bpy, sys
 scene = bpy.context.scene
@@ -28,21 +28,19 @@ for name in ('z', 'normal', 'diffuse_direct', 'glossy_direct', 'environment'):
 layer.cycles.denoising_store_passes = True
 scene.render.image_settings.file_format = 'OPEN_EXR_MULTILAYER'
 scene.render.image_settings.color_depth = '32'
-scene.render.use_multiview = sys.argv[-1] == 'stereo'
-scene.render.image_settings.views_format = 'MULTIVIEW'
-scene.render.filepath = sys.argv[-2]
+scene.render.filepath = sys.argv[-1]
 bpy.ops.render.render(write_still=True)
 )";
 
 class BlenderLayers : public testing::Test {
  protected:
   void SetUp() override { require_engine(*blender_); }
-  std::filesystem::path render(const std::string& kind) {
-    const auto path = directory_.path() / (kind + ".exr");
-    const auto result = run_process(
-        {blender_->status().program.string(), "-b", "--factory-startup", "--python-exit-code", "1",
-         "--python-expr", kScript, "--", path.string(), kind},
-        {});
+  std::filesystem::path render() {
+    const auto path = directory_.path() / "picture.exr";
+    const auto result =
+        run_process({blender_->status().program.string(), "-b", "--factory-startup",
+                     "--python-exit-code", "1", "--python-expr", kScript, "--", path.string()},
+                    {});
     EXPECT_EQ(result.exit_code, 0) << result.output_tail;
     return path;
   }
@@ -51,7 +49,7 @@ class BlenderLayers : public testing::Test {
 };
 
 TEST_F(BlenderLayers, AreFoundByTheNamesThatPeopleUse) {
-  const auto path = render("mono");
+  const auto path = render();
   EXPECT_THAT(read_picture(path, "").source.channels, Contains("ViewLayer.Combined.R"));
   EXPECT_EQ(read_picture(path, "").source.samples, 4);
   for (const auto& [name, channel] : {std::pair{"combined", "ViewLayer.Combined.G"},
@@ -68,14 +66,6 @@ TEST_F(BlenderLayers, AreFoundByTheNamesThatPeopleUse) {
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("there are 'ViewLayer.DiffDir'"));
   }
-}
-
-TEST_F(BlenderLayers, OfAStereoCameraAreFoundByTheirView) {
-  const auto path = render("stereo");
-  EXPECT_THAT(read_picture(path, "").source.channels, Contains("ViewLayer.Combined.left.R"));
-  EXPECT_THAT(read_picture(path, "right").source.channels, Contains("ViewLayer.Combined.right.R"));
-  EXPECT_THAT(read_picture(path, "depth.right").source.channels,
-              Contains("ViewLayer.Depth.right.Z"));
 }
 
 }  // namespace

@@ -7,9 +7,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
-#include "reference_scenes/engine.hpp"
 #include "tests/json.hpp"
-#include "tests/reference_scenes/require_engine.hpp"
 
 namespace lobelia {
 namespace {
@@ -78,33 +76,6 @@ TEST_F(ReferenceCommand, FormulasPerPixelNeedNoProgramAndTakeNone) {
   EXPECT_EQ(record.at("witness"), "analytic");
   EXPECT_EQ(record.at("engineCommands").size(), 0u);
 }
-
-class RealReferenceCommand : public ReferenceCommand,
-                             public testing::WithParamInterface<std::string> {
- protected:
-  void SetUp() override { require_engine(*make_engine(GetParam(), {})); }
-};
-
-TEST_P(RealReferenceCommand, WritesTheSameFileEveryTimeAndARecordBesideIt) {
-  std::string bytes[2];
-  for (std::string& one : bytes) {
-    const auto result = run({"--engine", GetParam(), "-o", "picture.exr", "--width", "32",
-                             "--height", "32", "--model", "modified_phong"});
-    ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-    one = read_file(directory_.path() / "picture.exr", 1 << 20);
-  }
-  EXPECT_TRUE(bytes[0] == bytes[1]);  // not EXPECT_EQ, which would print both
-  const Json record = read_json(directory_.path() / "picture.json");
-  EXPECT_EQ(record.at("witness"), "expressed");
-  EXPECT_EQ(record.at("passes"), 2);
-  EXPECT_EQ(record.at("engineCommands").size(), GetParam() == "povray" ? 2u : 1u);
-  EXPECT_EQ(record.at("image").at("file"), "picture.exr");
-  EXPECT_GT(record.at("seconds").at("total").get<double>(), 0);
-  EXPECT_THAT(record.dump(), testing::Not(HasSubstr(fs::temp_directory_path() / "lobelia-")));
-}
-
-INSTANTIATE_TEST_SUITE_P(Engines, RealReferenceCommand, testing::Values("povray", "blender"),
-                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace lobelia

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
@@ -74,158 +73,25 @@ TEST(Evaluation, PeakByALampBehindTheEyeIsTheCoefficientTimesTheIrradiance) {
       << "with the paper's misprint";
 }
 
-TEST(Evaluation, APointLightFallsWithTheSquareOfTheDistanceAndALampsNormalWithTheCosine) {
-  Scene scene = plane_scene();
-  scene.lights = {PointLight{{0, 2, 0}, {kPi, kPi, kPi}}};
-  EXPECT_NEAR(middle(scene).r, 0.25, 1e-15);
-  scene.lights = {PointLight{{3, 4, 0}, {kPi, kPi, kPi}}};
-  EXPECT_NEAR(middle(scene).r, 0.8 / 25, 1e-15);
-  scene.lights = {PointLight{{3, 4, 0}, {kPi, kPi, kPi}, {0, -1, 0}}};
-  EXPECT_NEAR(middle(scene).r, 0.8 * 0.8 / 25, 1e-15);
-  scene.lights = {PointLight{{3, 4, 0}, {kPi, kPi, kPi}, {0, 1, 0}}};
-  EXPECT_EQ(middle(scene).r, 0) << "it shines upwards";
-}
-
-TEST(Evaluation, APlaneHasTwoEqualSidesAndIsDarkByLightOfTheOther) {
-  Scene scene = plane_scene();
-  scene.lights = {DirectionalLight{{0, 1, 0}, {kPi, kPi, kPi}}};
-  EXPECT_EQ(middle(scene).r, 0);
-  scene.camera.origin.y = -5;
-  EXPECT_NEAR(middle(scene).r, 1, 1e-15);
-}
-
-TEST(Evaluation, SquaresOfACheckerBeginAtThePointAlongTheTangents) {
-  Scene scene = plane_scene();
-  scene.materials = {matt(1), matt(0.25)};
-  // Of +y the tangents are +x and -z.
-  for (const auto& [x, z, albedo] : {std::tuple(0.3, -0.3, 1.0),
-                                     {-0.3, -0.3, 0.25},
-                                     {0.3, 0.3, 0.25},
-                                     {-0.3, 0.3, 1.0},
-                                     {0.9, -0.3, 0.25},
-                                     {0.9, -0.9, 1.0}}) {
-    scene.planes = {{{-x, 0, -z}, {0, 1, 0}, 0, 1, 0.7}};
-    EXPECT_NEAR(middle(scene).r, albedo, 1e-14) << x << " " << z;
-  }
-  // Of (0.6, 0, -0.8) they are (1 - 0.36/1.8, 0, 0.6) = (0.8, 0, 0.6) and (0, -1, 0).
-  scene.camera = {{3, 0, -4}, {0, 0, 0}, {0, 1, 0}, 28};
-  scene.lights = {DirectionalLight{{-0.6, 0, 0.8}, {kPi, kPi, kPi}}};
-  for (const auto& [first, second, albedo] :
-       {std::tuple(0.3, 0.3, 1.0), {-0.3, 0.3, 0.25}, {0.3, -0.3, 0.25}, {0.9, 0.3, 0.25}}) {
-    scene.planes = {{{-0.8 * first, second, -0.6 * first}, {0.6, 0, -0.8}, 0, 1, 0.7}};
-    EXPECT_NEAR(middle(scene).r, albedo, 1e-14) << first << " " << second;
-  }
-}
-
-TEST(Evaluation, AMirrorPlaneShowsTheSceneMirroredAndDimmed) {
-  // A sphere above the floor y = 0, seen from above with its image, and its twin below where there is no floor.
-  Scene scene = sphere_scene({"blinn_phong_rdf", "gauss", "exact", 30},
-                             {DirectionalLight{{0.6, 0, -0.8}, kWhite}}, 40);
-  scene.camera = {{0, 1.5, 9}, {0, 0, 0}, {0, 1, 0}, 30};
-  scene.spheres[0].center = {0, 1.2, 0};
-  scene.materials.push_back(mirror(0.5));
-  scene.depth.mirror = 1;
-  Scene twin = scene;
-  scene.planes = {{{0, 0, 0}, {0, 1, 0}, 1, 1, 1}};
-  twin.spheres.push_back({{0, -1.2, 0}, 1, 0});
-  const auto mirrored = picture(scene), twins = picture(twin);
-  double seen = 0;
-  for (int y = 21; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) {
-      const std::size_t i = std::size_t(y) * 40 + x;
-      EXPECT_NEAR(mirrored[i].g, 0.5 * twins[i].g, 1e-12) << x << ", " << y;
-      seen = std::max(seen, mirrored[i].g);
-    }
-  EXPECT_GT(seen, 0.1);
-  scene.depth.mirror = 0;
-  for (std::size_t i = 21 * 40; i < 1600; ++i) ASSERT_EQ(picture(scene)[i].g, 0);
-}
-
-TEST(Evaluation, AMirrorsSchlickFactorIsOfTheAngleToItsNormal) {
-  // By an angle of arccos 4/5 down to the floor and up to a wall that is lit head-on.
-  Scene scene = plane_scene();
-  scene.camera = {{-3, 4, 0}, {0, 0, 0}, {0, 1, 0}, 10};
-  scene.materials = {mirror(0.04), matt(1)};
-  scene.materials[0].fresnel = Fresnel::kSchlick;
-  scene.materials[0].specular_reflectance = {};
-  scene.planes = {{{0, 0, 0}, {0, 1, 0}, 0, 0, 1}, {{50, 0, 0}, {1, 0, 0}, 1, 1, 1}};
-  scene.lights = {DirectionalLight{{1, 0, 0}, {kPi, kPi, kPi}}};
-  scene.depth.mirror = 1;
-  EXPECT_NEAR(middle(scene).r, 0.04 + 0.96 * std::pow(0.2, 5), 1e-14);
-  // Below 0.02 it grows to 50 times its largest component; so there is no step where a mirror begins.
-  scene.materials[0].mirror_reflectance = {0.01, 0.005, 0};
-  EXPECT_NEAR(middle(scene).r, 0.01 + 0.49 * std::pow(0.2, 5), 1e-14);
-  EXPECT_NEAR(middle(scene).g, 0.005 + 0.495 * std::pow(0.2, 5), 1e-14);
-  EXPECT_NEAR(middle(scene).b, 0.5 * std::pow(0.2, 5), 1e-14);
-  scene.materials[0].mirror_reflectance = 1e-9 * kWhite;
-  EXPECT_NEAR(middle(scene).r, 1e-9 + 49e-9 * std::pow(0.2, 5), 1e-22);
-  scene.materials[0].mirror_reflectance = {};
-  EXPECT_EQ(middle(scene).r, 0);
-}
-
-TEST(Evaluation, EveryReflectionBetweenTwoMirrorsTakesItsShare) {
-  // Between x = 0 and x = 2, along x all but 0.1: after k reflections a lamp of a wall that only the last sees.
-  Scene scene = plane_scene();
-  scene.materials = {mirror(0.5), matt(1)};
-  scene.materials[0].diffuse_reflectance = kWhite;
-  scene.camera = {{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, 10};
-  scene.planes = {{{0, 0, 0}, {1, 0, 0}, 0, 0, 1}, {{2, 0, 0}, {1, 0, 0}, 0, 0, 1}};
-  scene.lights = {PointLight{{1, 0, 0}, {kPi, kPi, kPi}}};
-  double expected = 0;
-  for (int depth = 0; depth < 9; ++depth) {
-    scene.depth.mirror = depth;
-    expected += std::pow(0.5, depth);
-    EXPECT_NEAR(middle(scene).r, expected, 1e-14) << depth;
-  }
-}
-
-TEST(Evaluation, APlaneAndASphereHideALampAndNothingBeyondItDoes) {
-  Scene scene = plane_scene();
-  scene.lights = {PointLight{{0, 2, 1}, {kPi, kPi, kPi}}};
-  const double lit = middle(scene).r;
-  ASSERT_GT(lit, 0);
-  scene.planes.push_back({{0, 0, 0.5}, {0, 0, 1}, 0, 0, 1});
-  scene.camera.origin = {0, 5, -1};
-  EXPECT_EQ(middle(scene).r, 0);
-  scene.planes[1].point.z = 1.5;
-  EXPECT_NEAR(middle(scene).r, lit, 1e-15);
-  scene.planes.pop_back();
-  scene.spheres = {{{0, 1, 0.5}, 0.2, 0}};
-  EXPECT_EQ(middle(scene).r, 0);
-  scene.spheres[0].center = {0, 4, 2};
-  EXPECT_NEAR(middle(scene).r, lit, 1e-15);
-  scene.lights = {DirectionalLight{normalize({0, -2, -1}), kWhite}};
-  EXPECT_EQ(middle(scene).r, 0) << "a directional light is behind everything";
-}
-
-/// The middle of a film of one pixel, in both kinds of number, of plane_scene() at any scale and place; `add`
-/// puts something into the scene, given what maps its places.
-class Floor {
- public:
-  using Map = std::function<Vec3(Vec3)>;
-  Floor(double scale, Vec3 away) : scale_(scale), away_(away) {}
-  void expect_light(double expected, const std::function<void(Scene&, const Map&)>& add) const {
-    Scene scene = plane_scene();
-    scene.film = {1, 1};
-    const Map map = [&](Vec3 v) { return scale_ * (v + away_); };
-    scene.camera = {map({0.01, 5, 0.02}), map({0, 0, 0}), {0, 0, -1}, 28};
-    scene.planes[0].point = map({3, 0, 2});
-    add(scene, map);
-    for (const Digits digits : {Digits::kDouble, Digits::kFifty})
-      EXPECT_NEAR(scale_ * scale_ * truth::evaluate(scene, digits)[0].r, expected,
-                  1e-6)  // moved by a hair
-          << scale_ << " " << away_.x;
-  }
-
- private:
-  double scale_;
-  Vec3 away_;
-};
 constexpr std::pair<double, Vec3> kPlaces[] = {
     {1, {}}, {1e-3, {}}, {1e4, {}}, {1, {1e5, -2e5, 3e4}}, {1e-3, {1e5, -2e5, 3e4}}};
 /// Where a lamp stands that lights the floor's middle by 0.8 / 25.
 constexpr Vec3 kLampPlace{3, 4, 0};
 constexpr double kLit = 0.8 / 25;
+
+/// A film of one pixel that sees the middle of plane_scene() at some scale and place, with a lamp so many closenesses
+/// from a plane. A closeness is 1e-12 of the largest coordinate, which is less than 6 here, or that of the place.
+Scene lamp_beside_a_plane(double scale, Vec3 away, Vec3 normal, double aside) {
+  const auto map = [&](Vec3 v) { return scale * (v + away); };
+  const double close = 1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
+  Scene scene = plane_scene();
+  scene.film = {1, 1};
+  scene.camera = {map({0.01, 5, 0.02}), map({0, 0, 0}), {0, 0, -1}, 28};
+  scene.planes[0].point = map({3, 0, 2});
+  scene.planes.push_back({map(kLampPlace), normal, 0, 0, 1});
+  scene.lights = {PointLight{map(kLampPlace) + aside * close * normal, {kPi, kPi, kPi}}};
+  return scene;
+}
 
 Vec3 unit_vector(int i) {
   return normalize({std::sin(1 + 7.0 * i), std::sin(2 + 11.0 * i), std::sin(3 + 13.0 * i)});
@@ -241,55 +107,17 @@ TEST(Evaluation, ALampInAPlaneLightsBothItsSidesAndOneAHairAsideItsOwn) {
                    eye = dot(Vec3{0.01, 5, 0.02} - kLampPlace, normal);
       if (!(middle * eye > 0) || std::abs(middle) < 0.1) continue;
       (middle > 0 ? before : behind) += 1;
-      // In closenesses: 1e-12 of the largest coordinate, which is less than 6 here, or that of the place.
-      for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
-        Floor(scale, away)
-            .expect_light(std::abs(aside) < 1 || aside * middle > 0 ? kLit : 0,
-                          [&](Scene& scene, const Floor::Map& map) {
-                            const double close =
-                                1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
-                            scene.lights = {PointLight{map(kLampPlace) + aside * close * normal,
-                                                       {kPi, kPi, kPi}}};
-                            scene.planes.push_back({map(kLampPlace), normal, 0, 0, 1});
-                          });
+      for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0}) {
+        const Scene scene = lamp_beside_a_plane(scale, away, normal, aside);
+        const double lit = std::abs(aside) < 1 || aside * middle > 0 ? kLit : 0;
+        for (const Digits digits : {Digits::kDouble, Digits::kFifty})
+          EXPECT_NEAR(scale * scale * truth::evaluate(scene, digits)[0].r, lit,
+                      1e-6)  // moved by a hair
+              << scale << " " << away.x;
+      }
     }
   EXPECT_GT(before, 20);
   EXPECT_GT(behind, 20);
-}
-
-TEST(Evaluation, ALampInAPlaneLightsNothingOfThePlane) {
-  for (const auto& [scale, away] : kPlaces)
-    for (int i = 0; i < 10; ++i)
-      Floor(scale, away).expect_light(0, [&](Scene& scene, const Floor::Map& map) {
-        const Vec3 normal = unit_vector(i), aside = cross(normal, unit_vector(i + 1));
-        // Without a cosine, so that nothing is dark because it is lit along the plane.
-        scene.materials[0].highlight = highlight_of({"phong_rdf", "cosine", "exact", 0.01});
-        scene.materials[0].specular_reflectance = kWhite;
-        scene.planes = {{map({0, 0, 0}), normal, 0, 0, 1}};
-        scene.lights = {PointLight{map(2.0 * aside), {kPi, kPi, kPi}}};
-      });
-}
-
-TEST(Evaluation, ALampOnASphereLightsWhatIsAboveItsHorizon) {
-  int above = 0, below = 0;
-  for (const auto& [scale, away] : kPlaces)
-    for (int i = 0; i < 50; ++i) {
-      const Vec3 up = unit_vector(i);
-      const double middle = -dot(kLampPlace, up);
-      if (std::abs(middle) < 0.1) continue;
-      (middle > 0 ? above : below) += 1;
-      for (const double radius : {0.01, 1.0})
-        for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
-          Floor(scale, away)
-              .expect_light(middle > 0 && aside > -1 ? kLit : 0, [&](Scene& scene,
-                                                                     const Floor::Map& map) {
-                const double close = 1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
-                scene.lights = {PointLight{map(kLampPlace) + aside * close * up, {kPi, kPi, kPi}}};
-                scene.spheres = {{map(kLampPlace) - scale * radius * up, scale * radius, 0}};
-              });
-    }
-  EXPECT_GT(above, 50);
-  EXPECT_GT(below, 50);
 }
 
 double peak_of(const std::vector<Rgb>& pixels) {
@@ -347,8 +175,6 @@ std::ptrdiff_t ring_size(const Scene& scene) {
   const auto ring = truth::edge_ring(scene);
   return std::count(ring.begin(), ring.end(), 1);
 }
-
-TEST(EdgeRing, IsEmptyWhereEveryRaySeesTheSame) { EXPECT_EQ(ring_size(plane_scene()), 0); }
 
 TEST(EdgeRing, HasTheTwoColumnsOrRowsOfPixelsBesideABoundaryOfSquares) {
   Scene scene = plane_scene();

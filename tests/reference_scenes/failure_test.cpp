@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <filesystem>
@@ -11,7 +10,6 @@
 #include <map>
 #include <random>
 #include <set>
-#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -49,21 +47,12 @@ class FakeEngine : public testing::TestWithParam<std::string> {
         sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
   }
 
-  std::map<std::size_t, std::string> errors_of(const std::string& body, int scenes = 1,
-                                               double limit = 3600) {
+  /// Of a scene.
+  ReferenceResult failed(const std::string& body) {
     const auto engine = make_engine(GetParam(), program(body));
-    const std::vector<Scene> all = plain_scenes(scenes);
-    ReferenceOptions options;
-    options.time_limit = std::chrono::duration<double>(limit);
-    std::map<std::size_t, std::string> errors;
-    render_all(*engine, all, options, [&](std::size_t index, ReferenceResult result) {
-      EXPECT_FALSE(errors.contains(index)) << "told twice";
-      EXPECT_EQ(result.image.pixel_count(), 0u);
-      errors[index] = result.error;
-      logs_[index] = result.log;
-    });
-    EXPECT_EQ(errors.size(), std::size_t(scenes)) << "every scene has its result";
-    return errors;
+    ReferenceResult result = Session(*engine, {}).render(plain_scenes(1)[0]);
+    EXPECT_EQ(result.image.pixel_count(), 0u);
+    return result;
   }
 
   std::string unavailable_because(const fs::path& path) {
@@ -98,14 +87,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
               done)";
   }
 
-  /// The script's first scene, as the real one tells it.
-  static constexpr char kBeginFirst[] =
-      R"(for job; do :; done
-         name=$(grep -o 'scene[0-9]*"' "$job" 2>/dev/null | head -1 | tr -d '"')
-         echo "lobelia: begin $name")";
-
   TemporaryDirectory directory_;
-  std::map<std::size_t, std::string> logs_;  ///< of errors_of(), by scene
 };
 
 TEST_P(FakeEngine, SaysThatItIsMissingOrAnotherProgram) {
@@ -131,43 +113,23 @@ TEST_P(FakeEngine, OfAVersionThatCannotBeDrivenIsRefusedWithThatAndTheOnesThatCa
 }
 
 TEST_P(FakeEngine, ComplaintIsInTheErrorInOneLineAndInTheLog) {
-  const auto errors = errors_of("echo chatter; echo 'Parse Error: no such thing'; exit 7");
-  EXPECT_THAT(errors.at(0), HasSubstr("stopped with exit code 7: Parse Error: no such thing"));
-  EXPECT_EQ(errors.at(0).find('\n'), std::string::npos);
-  EXPECT_THAT(logs_.at(0), HasSubstr("chatter"));
+  const ReferenceResult result = failed("echo chatter; echo 'Parse Error: no such thing'; exit 7");
+  EXPECT_THAT(result.error, HasSubstr("stopped with exit code 7: Parse Error: no such thing"));
+  EXPECT_EQ(result.error.find('\n'), std::string::npos);
+  EXPECT_THAT(result.log, HasSubstr("chatter"));
+  EXPECT_THAT(failed("exit 0").error,
+              HasSubstr(GetParam() == "povray" ? "wrote no picture" : "rendered nothing"));
 }
 
 TEST_P(FakeEngine, ThatWasTooSlowToStartItsThreadsIsStartedAgain) {
   if (GetParam() != "povray") GTEST_SKIP() << "POV-Ray alone gives up on itself";
-  const auto errors = errors_of(
+  const ReferenceResult third = failed(
       "echo >> starts; if [ $(wc -l < starts) -lt 3 ]; then\n"
       "echo 'Timed out waiting for worker thread startup' >&2; exit 1; fi\n"
       "echo 'Parse Error: the third start' >&2; exit 7");
-  EXPECT_THAT(errors.at(0), HasSubstr("stopped with exit code 7: Parse Error: the third start"));
-  EXPECT_THAT(errors_of("echo 'Timed out waiting for worker thread startup' >&2; exit 1").at(0),
+  EXPECT_THAT(third.error, HasSubstr("stopped with exit code 7: Parse Error: the third start"));
+  EXPECT_THAT(failed("echo 'Timed out waiting for worker thread startup' >&2; exit 1").error,
               HasSubstr("stopped with exit code 1: Timed out waiting"));
-}
-
-TEST_P(FakeEngine, ThatEndsWithoutAPictureLosesEveryScene) {
-  const bool povray = GetParam() == "povray";
-  const std::string begin = kBeginFirst;
-  struct {
-    std::string body;
-    int scenes;
-    double limit;
-    const char* said;
-  } const cases[] = {
-      {begin + "\nkill -SEGV $$", 3, 3600, "was ended by signal 11"},
-      {begin + "\nsleep 60", 2, 0.4, "was stopped after 0.4 s"},
-      {"exit 0", 1, 3600, povray ? "wrote no picture" : "rendered nothing"},
-      {povray ? R"(echo text > "${1%.ini}.exr")" : begin + R"(
-         echo text > "${job%job.json}$name-0.exr"
-         echo "lobelia: done $name 1")",
-       1, 3600, "picture cannot be used"},
-  };
-  for (const auto& [body, scenes, limit, said] : cases)
-    for (const auto& [scene, error] : errors_of(body, scenes, limit))
-      EXPECT_THAT(error, HasSubstr(said)) << body << "\n" << scene;
 }
 
 TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsClassAndItsLogAndNothingElses) {
@@ -256,8 +218,7 @@ TEST_P(FakeEngine, ThatIsTakenAwayMeanwhileIsMissing) {
 }
 
 TEST_P(FakeEngine, FloodOfWordsIsCutInTheLog) {
-  errors_of("head -c 20000000 /dev/zero | tr '\\0' x | fold; exit 1");
-  const auto size = logs_.at(0).size();
+  const auto size = failed("head -c 20000000 /dev/zero | tr '\\0' x | fold; exit 1").log.size();
   EXPECT_GT(size, 1u << 20);
   EXPECT_LT(size, 3u << 20);
 }
@@ -302,9 +263,10 @@ TEST_P(FakeEngine, WritesNothingOutsideItsOwnDirectory) {
 }
 
 TEST_P(FakeEngine, FindsNoSettingsButOurs) {
-  errors_of(
-      "echo \"[$HOME] [$TMPDIR] [$XDG_CONFIG_HOME]\"; pwd; cat \"$POVINI\" .povray/*/*; exit 1");
-  const std::string& log = logs_.at(0);
+  const std::string log =
+      failed(
+          "echo \"[$HOME] [$TMPDIR] [$XDG_CONFIG_HOME]\"; pwd; cat \"$POVINI\" .povray/*/*; exit 1")
+          .log;
   const auto begin = log.find('[') + 1;
   const std::string own = log.substr(begin, log.find(']') - begin);
   EXPECT_THAT(log, HasSubstr(fmt::format("[{0}] [{0}] [{0}]\n{0}\n", own)));
@@ -379,14 +341,15 @@ TEST_P(FakeBlender, ThatDiesCostsOneSceneAndTheOthersGoOnInANewOne) {
   // In the middle of a scene; and between two, when the next is in nobody's hands.
   std::map<FailureClass, int> ends;
   for (const auto& [scene, result] :
-       results_of(goes_on("[ $number = 5 ] && kill -SEGV $$\n[ $number = 20 ] && "
+       results_of(goes_on("[ $number = 5 ] && kill -SEGV $$\n[ $number = 12 ] && kill -ALRM $$\n"
+                          "[ $number = 20 ] && "
                           "{ echo 'lobelia: failed scene20 Python no'; kill -SEGV $$; }"),
                   30))
     ++ends[result.failure];
   using enum FailureClass;
   using testing::Pair;
-  EXPECT_THAT(ends,
-              testing::UnorderedElementsAre(Pair(kNone, 28), Pair(kCrash, 1), Pair(kExitCode, 1)));
+  EXPECT_THAT(ends, testing::UnorderedElementsAre(Pair(kNone, 27), Pair(kCrash, 1),
+                                                  Pair(kTimedOut, 1), Pair(kExitCode, 1)));
 }
 
 TEST_P(FakeBlender, ThatDiesBetweenTwoScenesIsNoneOfTheirFailures) {

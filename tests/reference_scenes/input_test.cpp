@@ -220,11 +220,7 @@ TEST(NotComparable, IsALampOnASphereInEveryProgramUnlessItFacesAway) {
   const Vec3 up = normalize({0.3, 0.2, 1});
   Scene scene = ground_scene(kNative, {PointLight{up, kWhite}}, 16);
   for (const Vec3 away : {Vec3{}, Vec3{1e3, 2e3, -3e3}}) {
-    Scene placed = scene;
-    for (Vec3* place : {&placed.camera.origin, &placed.camera.target, &placed.spheres[0].center,
-                        &placed.planes[0].point, &placed.planes[1].point,
-                        &std::get<PointLight>(placed.lights[0]).position})
-      *place = *place + away;
+    Scene placed = moved(scene, 1, away);
     for (const auto* engine : {&povray, &blender})
       EXPECT_THAT((*engine)->why_not(placed, {}), HasSubstr("light 0 lies on sphere 0, and in"));
     EXPECT_EQ(make_engine("analytic", {})->why_not(placed, {}), "");
@@ -259,9 +255,7 @@ TEST(NotComparable, IsALampThatPovraysShadowsDoNotTellFromOneInThePlane) {
 TEST(EngineUnits, LeaveALampOnTheSurfacesThatItLiesOn) {
   // So far away that the rounding of places is beyond the closeness of what is near the origin.
   const Vec3 away{1e6, 2e6, -3e6}, normal = normalize({0.3, 1, 0.2});
-  Scene scene = sphere_scene(kNative, {}, 16);
-  for (Vec3* place : {&scene.camera.origin, &scene.camera.target, &scene.spheres[0].center})
-    *place = *place + away;
+  Scene scene = moved(sphere_scene(kNative, {}, 16), 1, away);
   scene.planes = {{away + Vec3{0, -1.5, 0}, normal, 0, 0, 1}};
   const Vec3 along = normalize(cross(normal, {1, 2, 3}));
   for (int i = 0; i < 50; ++i)

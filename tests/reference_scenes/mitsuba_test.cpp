@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/exr_writer.hpp"
 #include "core/files.hpp"
+#include "core/image_io.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
@@ -56,9 +56,7 @@ Scene sayable(Scene scene) {
 
 TEST(Mitsuba, IsWrittenAndReadAgainAsTheSameScene) {
   const TemporaryDirectory directory;
-  ExrWriter sky_file(directory.path() / "sky.exr", sky()->width(), sky()->height(), {});
-  sky_file.write_rows(0, sky()->height(), sky()->values().data());
-  sky_file.finish();
+  write_exr(directory.path() / "sky.exr", *sky(), {});
   int compared = 0;
   expect_of_random_scenes(SceneKind::kAny, 400, [&](const Scene& random, Random&) -> std::string {
     const Scene scene = sayable(random);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/files.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
@@ -49,12 +50,8 @@ double floors_apart(const Scene& scene, const Image& image, const EngineFloor& f
   return peak > 0 ? apart : kInfinity;
 }
 
-class NativeEngine : public testing::TestWithParam<std::string> {
+class NativeEngine : public WithRealEngine {
  protected:
-  void SetUp() override {
-    engine_ = make_engine(GetParam(), {});
-    require_engine(*engine_);
-  }
   /// Those that it shows natively.
   std::vector<Scene> shown(std::vector<Scene> scenes) const {
     std::erase_if(scenes,
@@ -73,7 +70,6 @@ class NativeEngine : public testing::TestWithParam<std::string> {
       EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
     });
   }
-  std::unique_ptr<Engine> engine_;
   ReferenceOptions options_{.shading = Shading::kNative};
 };
 
@@ -175,29 +171,14 @@ class FakeNativeEngine : public testing::TestWithParam<std::string> {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     return make_engine(GetParam(), file);
   }
-  /// That says it is the real one, and then does `more` with the scene's name in $name.
-  std::unique_ptr<Engine> engine_that(const std::string& more) {
-    return engine(
-        fmt::format("case $1 in --version) echo '{}'; exit;; esac\n"
-                    "name=$(sed -n 's/^scene //p' \"$1\")\necho \"lobelia: begin $name\"\n{}",
-                    version(), more));
-  }
-  static std::string version() {
-    const std::pair<const char*, const char*> versions[] = {{"tachyon", "Tachyon 0.99"},
-                                                            {"sunflow", "Sunflow 0.07.2"},
-                                                            {"three", "three.js 0.187.0"},
-                                                            {"babylon", "Babylon.js 9.35.0"},
-                                                            {"opengl", "OpenGL 4.5"}};
-    for (const auto& [name, text] : versions)
-      if (name == GetParam()) return text;
-    return "";
-  }
-  ReferenceResult render(Engine& engine) {
-    ReferenceOptions options;
-    for (const Scene& scene : highlights({10}))
-      if (engine.why_not(scene, options).empty()) return Session(engine, options).render(scene);
-    ADD_FAILURE() << "it can show nothing";
-    return {};
+  /// What its answer to --version begins with.
+  static std::string name() {
+    const std::map<std::string, std::string> names = {{"tachyon", "Tachyon"},
+                                                      {"sunflow", "Sunflow"},
+                                                      {"three", "three.js"},
+                                                      {"babylon", "Babylon.js"},
+                                                      {"opengl", "OpenGL"}};
+    return names.at(GetParam());
   }
   TemporaryDirectory directory_;
 };
@@ -205,22 +186,9 @@ class FakeNativeEngine : public testing::TestWithParam<std::string> {
 TEST_P(FakeNativeEngine, ThatIsMissingOrOfAnotherVersionSaysSo) {
   EXPECT_EQ(engine("echo Nothing; exit 69")->status().state, EngineState::kAbsent);
   EXPECT_EQ(engine("exit 3")->status().state, EngineState::kBroken);
-  const auto other =
-      engine(fmt::format("echo '{} 77.1'", version().substr(0, version().find(' '))));
+  const auto other = engine(fmt::format("echo '{} 77.1'", name()));
   EXPECT_EQ(other->status().state, EngineState::kBroken);
   EXPECT_THAT(other->status().why, HasSubstr("77.1"));
-}
-
-TEST_P(FakeNativeEngine, ThatCrashesOrWritesNothingOrNansLosesThatPicture) {
-  const auto ends = [&](const std::string& script) { return render(*engine_that(script)).failure; };
-  EXPECT_EQ(ends("kill -SEGV $$"), FailureClass::kCrash);
-  EXPECT_EQ(ends("kill -ALRM $$"), FailureClass::kTimedOut);
-  EXPECT_EQ(ends("echo \"lobelia: done $name 0.1\""), FailureClass::kNoOutput);
-  EXPECT_EQ(ends("echo \"lobelia: failed $name no driver\""), FailureClass::kExitCode);
-  EXPECT_EQ(ends(fmt::format("{{ printf 'PF\\n{0} {0}\\n-1.0\\n'; head -c {1} /dev/zero | tr '\\0' "
-                             "'\\377'; }} > $name-0.pfm; echo \"lobelia: done $name 0.1\"",
-                             kSize, 12 * kSize * kSize)),
-            FailureClass::kNonFinite);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, FakeNativeEngine,

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
+#include <string>
 #include <string_view>
 
 #include "reference_scenes/engine.hpp"
@@ -21,5 +23,15 @@ inline void require_engine(Engine& engine) {
   if (required && std::string_view(required) == "1") FAIL() << why;
   GTEST_SKIP() << why;
 }
+
+/// Tests of the real engine whose name is the parameter.
+class WithRealEngine : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    engine_ = make_engine(GetParam(), {});
+    require_engine(*engine_);
+  }
+  std::unique_ptr<Engine> engine_;
+};
 
 }  // namespace lobelia

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <variant>
 
 #include "core/image.hpp"
 #include "studies/agreement/example_scenes.hpp"
@@ -22,6 +23,21 @@ struct Difference {
   int outliers = 0;  ///< pixels over the tolerance
   bool finite = true;
 };
+
+/// The scene in other units and in another place: of the same picture.
+inline Scene moved(Scene scene, double scale, Vec3 away) {
+  const auto move = [&](Vec3& place) { place = scale * (place + away); };
+  move(scene.camera.origin);
+  move(scene.camera.target);
+  for (Sphere& sphere : scene.spheres) move(sphere.center), sphere.radius *= scale;
+  for (Plane& plane : scene.planes) move(plane.point), plane.checker_size *= scale;
+  for (Light& light : scene.lights)
+    if (auto* lamp = std::get_if<PointLight>(&light)) {
+      move(lamp->position);
+      lamp->intensity = scale * scale * lamp->intensity;
+    }
+  return scene;
+}
 
 /// A pixel is over the tolerance if a channel is: |a - truth| > relative * truth + of_peak * peak.
 inline Difference difference(const Image& a, const Image& truth, double relative, double of_peak) {

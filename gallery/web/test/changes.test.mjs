@@ -38,9 +38,6 @@ test('a cell that is worse makes exit code 1 and one line that names it', () => 
   assert.equal(publishing.status, 1, publishing.stderr);
   assert.match(publishing.stderr, /^lobelia: gallery: 1 of 6 cells is worse than in the baseline: 16-phong: Blender Cycles: pass became differs\n$/);
   assert.equal(gallery('-o', path.join(directory, 'alone')).status, 0);
-  const none = gallery('-o', path.join(directory, 'none'), '--baseline', directory);
-  assert.equal(none.status, 3);
-  assert.match(none.stderr, /^lobelia[^\n]*farm\.json: no such file[^\n]*\n$/);
 });
 
 for (const from of ['file', 'server']) {
@@ -84,22 +81,6 @@ test('without an earlier run there is nothing of it', async () => {
   assert.equal(await index.getByRole('combobox', { name: 'Change', exact: true }).count(), 0);
   assert.equal(await index.locator('.since, .change').count(), 0);
   await close(index);
-});
-
-test('a cell has its metrics then and now, and a timeline of all runs', async () => {
-  const cell = await page(kWorse);
-  await says(cell, '.verdict', /Worse than on 2026-11-20 \(second\): Blender Cycles: pass became differs/);
-  const blender = cell.locator('.engine-change', { hasText: 'Blender Cycles' });
-  assert.equal(await blender.getAttribute('open'), 'open');
-  assert.deepEqual(await blender.locator('.then-and-now').first().locator('thead th').allTextContents(), ['Measure', 'Before', 'Now', 'Limit', 'Change']);
-  assert.deepEqual((await blender.locator('.then-and-now tbody tr').first().textContent()).trim().split('\n'),
-    ['Largest difference, of the peak', '0.1 %', '0.1 %', '0.05 %', '= as before']);
-  const drawing = blender.getByRole('img', { name: /2026-11-10, first: 0\.1 %\. 2026-11-20, second: 0\.1 %\. .*this run: 0\.1 %\. Limit 0\.05 %\.$/ });
-  assert.equal(await drawing.locator('circle').count(), 3);
-  assert.ok(await drawing.locator('.limit').count() > 0);
-  assert.ok((await drawing.locator('.run-label').allTextContents()).includes('2026-11-20'));
-  assert.equal(await cell.locator('.engine-change', { hasText: 'POV-Ray' }).getAttribute('open'), null);
-  await close(cell);
 });
 
 test('the viewer wipes, flips and subtracts old and new', async () => {

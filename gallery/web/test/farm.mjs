@@ -86,7 +86,7 @@ export function exr(width, height, rgbOf) {
   return Buffer.concat([header, offsets, ...rows]);
 }
 
-const encode = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(v, 1) ** (1 / 2.4) - 0.055));
+export const encode = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(v, 1) ** (1 / 2.4) - 0.055));
 
 /** Ours at (x, y); each engine adds an error of its own. */
 export const kPeak = 2.5;

@@ -2,30 +2,21 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
+import { before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
-import { close, fileUrl, launch, lobelia, open, ready, requireAccessible, scratch } from './browser.mjs';
-import { ours, writeFarm } from './farm.mjs';
+import { close, requireAccessible } from './browser.mjs';
+import { cellSite } from './cell_site.mjs';
+import { ours } from './farm.mjs';
 
-const kSize = 16, directory = scratch(), run = path.join(directory, 'run'), site = path.join(directory, 'site');
-const kCell = 'cells/phong-16/index.html';
-let browser, textOf;
+const kSize = 16, { directory, cellPage } = cellSite({ size: kSize });
+let textOf;
 
 before(async () => {
-  writeFarm(run, { axes: { model: ['phong', 'blinn'], exponent: ['16', '128'] }, size: kSize });
-  lobelia('gallery', run, '-o', site);
   const source = path.join(path.dirname(fileURLToPath(import.meta.url)), '../src/lib/figure_text.ts'), outfile = path.join(directory, 'figure_text.mjs');
   await build({ entryPoints: [source], outfile, bundle: true, format: 'esm', logLevel: 'warning' });
-  [browser, textOf] = await Promise.all([launch(), import(pathToFileURL(outfile))]);
+  textOf = await import(pathToFileURL(outfile));
 });
-after(async () => { await browser?.close(); });
-
-async function cell(hash = '') {
-  const page = await open(browser, fileUrl(site) + kCell + hash);
-  await ready(page);
-  return page;
-}
 
 /** Presses a button of the open panel; the file's name and bytes. */
 async function saved(page, button) {
@@ -52,7 +43,7 @@ const parsed = (page, text) => page.evaluate((source) => {
 }, text);
 
 test('a difference is saved as a large picture with a colour bar, as numbers, and for LaTeX', async () => {
-  const page = await cell('#a=lobelia&b=povray&mode=diff&z=fit');
+  const page = await cellPage('#a=lobelia&b=povray&mode=diff&z=fit');
   await page.getByRole('button', { name: 'Figure: what the viewer shows' }).click();
   await requireAccessible(page, 'the panel');
   const png = await saved(page, 'PNG');
@@ -85,7 +76,7 @@ test('a difference is saved as a large picture with a colour bar, as numbers, an
 });
 
 test('the panel opens and closes by keys, and its letters are no commands of the page', async () => {
-  const page = await cell();
+  const page = await cellPage();
   const button = page.getByRole('button', { name: 'Figure: what the viewer shows' });
   await button.focus();
   await page.keyboard.press('Enter');
@@ -99,7 +90,7 @@ test('the panel opens and closes by keys, and its letters are no commands of the
 });
 
 test('a chart is saved as an SVG that needs no page, with its legend, and as its series', async () => {
-  const page = await cell('#line=0,8,15,8');
+  const page = await cellPage('#line=0,8,15,8');
   await page.getByRole('button', { name: 'Figure: Values along the line' }).click();
   const svg = await saved(page, 'SVG'), drawing = await parsed(page, svg.bytes.toString());
   assert.equal(svg.name, 'phong-16-line.svg'.replace('phong-16', svg.name.replace(/-line\.svg$/, '')));

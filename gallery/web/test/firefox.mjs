@@ -68,8 +68,8 @@ export async function saved(directory, act) {
 }
 
 /** Colours of the stage as a person sees them: shares of its width and height, and [r, g, b] for each. */
-export async function seen(page, places, selector = '.stage') {
-  const stage = await page.$(selector);
+export async function seen(page, places) {
+  const stage = await page.$('.stage');
   const picture = Buffer.from(await stage.screenshot()).toString('base64');
   // The page's policy allows data: pictures.
   return page.evaluate(async (data, all) => {

@@ -4,7 +4,7 @@ import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { clickStage, fileUrl, hashOf, lobelia, scratch, serve } from './browser.mjs';
-import { ours, writeFarm } from './farm.mjs';
+import { encode, ours, writeFarm } from './farm.mjs';
 import { close, launchFirefox, open, press, saved, says, seen, textOf } from './firefox.mjs';
 import { writeStudies } from './studies.mjs';
 
@@ -23,7 +23,6 @@ before(async () => {
 after(async () => { await browser?.close(); await server?.stop(); });
 
 const isReady = (page, count = 2) => page.waitForFunction((n) => Number(document.querySelector('.stage')?.dataset.ready) >= n, { polling: 50 }, count);
-const encoded = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
 const near = (found, wanted) => found.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) <= 6, `${found} is not ${wanted}`));
 /** Where the stage has pixel (36, 26) of a whole picture: beside the mark on the pixel that differs most. */
 const beside = (page) => page.$eval('.stage', (stage, size) => {
@@ -62,7 +61,7 @@ for (const from of ['file', 'server']) {
     const hasGl = await page.evaluate(() => Boolean(document.createElement('canvas').getContext('webgl2')));
     await says(page, '.stage-note', hasGl ? /^$/ : /^Painted by the processor/);
     const [bright, dark] = await seen(page, [await beside(page), [0.03, 0.97]]);
-    near(bright, ours(36, 26, kSize).map((v) => encoded(v / 2)));
+    near(bright, ours(36, 26, kSize).map((v) => encode(v / 2)));
     assert.ok(Math.max(...dark) < 40, String(dark));
     const first = await textOf(page, '.tags'), place = await middleOf(page);
     await clickStage(page, ...place);
@@ -98,14 +97,6 @@ for (const from of ['file', 'server']) {
   });
 }
 
-test('a map of a metric is painted', async () => {
-  const page = await open(browser, fileUrl(site) + kCell + '#a=lobelia&b=blender&mode=diff&measure=ciede2000&gain=10&z=fit');
-  await isReady(page);
-  await says(page, '.legend-bar', /CIEDE2000: .*the largest is/);
-  near((await seen(page, [await beside(page)]))[0], [252, 253, 191]);  // the top of magma
-  await close(page);
-});
-
 test('a cell of a packed site opens, with its pictures', async () => {
   const page = await open(browser, fileUrl(packed) + 'index.html');
   await page.waitForFunction(() => { const all = [...document.querySelectorAll('.cell img')]; return all.length > 0 && all.every((i) => i.complete && i.naturalWidth > 1); });
@@ -116,20 +107,6 @@ test('a cell of a packed site opens, with its pictures', async () => {
   await page.evaluate(() => { location.hash += '&mode=flip&shown=a&z=fit'; });
   await page.waitForFunction(() => document.querySelector('.tags')?.children.length === 1);
   await page.waitForFunction(() => { const c = document.querySelector('.stage canvas'), { data } = c.getContext('2d').getImageData(c.width / 2, Math.floor(c.height / 3), 1, 1); return data[0] > 200; });
-  await close(page);
-});
-
-test('the explorer paints its sphere, and turns its light', async () => {
-  const page = await open(browser, fileUrl(site) + 'explorer.html');
-  await page.waitForFunction(() => [...document.querySelectorAll('.sphere-stage canvas')].some((c) => c.width > 1));
-  await (await page.$('.sphere-stage')).scrollIntoView();
-  await says(page, '.sphere-numbers', /Light \d+°/);
-  const grid = Array.from({ length: 400 }, (_, i) => [(i % 20 + 0.5) / 20, (Math.floor(i / 20) + 0.5) / 20]);
-  const colours = await seen(page, grid, '.sphere-stage');
-  assert.ok(new Set(colours.map(String)).size > 8, 'a highlight with its flanks');
-  await page.focus('.sphere-stage');
-  await page.keyboard.press('ArrowUp');
-  await says(page, '#announcer', /Light/);
   await close(page);
 });
 
@@ -144,16 +121,4 @@ test('the button Figure saves a picture and numbers', async () => {
   const csv = await saved(downloads, async () => { await page.click('::-p-xpath(//dialog//button[starts-with(normalize-space(), "CSV")])'); });
   assert.match(csv.bytes.toString(), /^x,y,lobelia\.r,/);
   await close(page);
-});
-
-test('on a phone the pictures are on the first screen, and nothing is wider than it', async () => {
-  for (const name of ['index.html', kCell]) {
-    const page = await open(browser, fileUrl(site) + name, kPhone);
-    if (name === kCell) {
-      await isReady(page);
-      assert.ok(await page.$eval('.stage', (stage) => stage.getBoundingClientRect().bottom <= innerHeight));
-    }
-    assert.ok(await fits(page), name);
-    await close(page);
-  }
 });

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { close, launch, lobelia, open, ready, requireAccessible, says, scratch } from './browser.mjs';
+import { close, launch, lobelia, open, ready, says, scratch } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
 
 const directory = scratch(), run = path.join(directory, 'run');
@@ -14,7 +14,6 @@ let browser;
 before(async () => {
   writeFarm(run, { axes: { scene: kNames }, size: 32 });
   lobelia('gallery', 'publish', run, '-o', at('grid.html'));
-  lobelia('gallery', 'publish', run, '-o', at('cell.html'), '--cell', kNames[0]);
   browser = await launch();
 });
 after(() => browser?.close());
@@ -37,14 +36,5 @@ test('a long name is broken, and a page is no wider than a phone', async () => {
   await says(page, 'h1', /x{200}/);
   await ready(page);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
-  await close(page);
-});
-
-test('a cell in one file has its float pictures and nothing else', async () => {
-  const page = await open(browser, url('cell.html'));
-  await says(page, 'h1', /日本語/);
-  await ready(page);
-  await requireAccessible(page, 'a cell');
-  alone(page, 'cell.html');
   await close(page);
 });

@@ -2,9 +2,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { lobelia } from './browser.mjs';
-import { png } from './farm.mjs';
-
-const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
+import { made, png } from './farm.mjs';
 
 function put(run, file, record) {
   mkdirSync(path.dirname(path.join(run, file)), { recursive: true });
