@@ -1,6 +1,7 @@
 // `lobelia search`: its optima by a second solver, its proofs by 50 digits on grids, its certificates by themselves.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <random>
@@ -253,6 +254,24 @@ TEST(Search, KnowsWhereALobeIsCosNItself) {
     const records::LobeSearch found = search(request);
     EXPECT_EQ(found.chosen, "pk1.4") << exponents;
   }
+}
+
+TEST(Search, CountsTheRoundingOfItsPrecisionAgainstTheError) {
+  // In 8 bits pk3.0 is within 0.017 of cos^64 by its formula, and with its rounding not within 0.1.
+  Request request;
+  request.range = parse_range("64");
+  request.rounding = parse_rounding("fixed:8");
+  request.error = 0.02;
+  const records::LobeSearch found = search(request);
+  const auto lobe = [&](const std::string& name) {
+    return std::ranges::find(found.lobes, name, &records::SearchedLobe::name);
+  };
+  ASSERT_NE(lobe("pk3.0"), found.lobes.end());
+  ASSERT_LE(lobe("pk3.0")->errors.max, *request.error);
+  ASSERT_NE(lobe(found.chosen), found.lobes.end());
+  const records::SearchedLobe& chosen = *lobe(found.chosen);
+  EXPECT_LE(chosen.errors.max + chosen.errors.rounding, *request.error);
+  EXPECT_GT(chosen.price, lobe("pk3.0")->price);
 }
 
 TEST(Search, DoesNotProveWhatIsNotSo) {
