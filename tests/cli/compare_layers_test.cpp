@@ -142,11 +142,9 @@ TEST_F(ComparePictures, EveryComponentOfAVectorIsCompared) {
   exr("a.exr", 32, 32, motion(1, 2));
   exr("other_x.exr", 32, 32, motion(3, 2));
   exr("other_y.exr", 32, 32, motion(1, 3));
-  for (const char* other : {"other_x.exr", "other_y.exr"}) {
-    EXPECT_EQ(compare({other, "a.exr"}).exit_code, 3) << "which layer is the picture?";
-    for (const char* option : {"--all-layers", "--layer=motion"})
-      EXPECT_EQ(compare({other, "a.exr", option}).exit_code, 1) << other << " " << option;
-  }
+  EXPECT_EQ(compare({"other_y.exr", "a.exr"}).exit_code, 3) << "which layer is the picture?";
+  for (const char* other : {"other_x.exr", "other_y.exr"})
+    EXPECT_EQ(compare({other, "a.exr", "--layer=motion"}).exit_code, 1) << other;
   EXPECT_EQ(compare({"a.exr", "a.exr", "--layer", "motion"}).exit_code, 0);
 }
 
