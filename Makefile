@@ -35,7 +35,7 @@ help: ## this list
 	@echo 'QUICK=yes, BENCH (where figures of speed are kept), BASE (a commit), GROUPS (of long tests), ONLY (some faults)'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
-	@echo 'make gallery: from a fresh clone 10 to 13 minutes on 2 cores (a first page comes after the farm), plus 1 or 2 to install missing packages'
+	@echo 'make gallery: from a fresh clone about 14 minutes on 2 cores (a first page after 11), plus 1 or 2 to install missing packages'
 	$(setup) build engines
 	$(npm)
 	$(configure)
