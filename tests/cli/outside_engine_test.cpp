@@ -112,7 +112,7 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
   };
   EXPECT_EQ(in("/nowhere:\"$PWD\""), 0);
   EXPECT_EQ(in("\"$PWD\"x:/nowhere:."), 2);
-  // Leave for a folder, which must exist to count, is none for its neighbour whose name begins like it.
+  // Leave for a folder does not reach a neighbour whose name begins like it. Only a folder that exists gives leave.
   for (const char* folder : {"near", "nearby"}) fs::create_directory(path(folder));
   fs::rename(path("grid.xml"), path("nearby/grid.xml"));
   const std::string run_nearby = " \"$LOBELIA\" farm nearby/grid.xml -o out -q --dry-run";

@@ -60,6 +60,7 @@ TEST(VerifyReferences, EndsWith5WhereAnEngineFails) {
                                   directory.path());
   EXPECT_EQ(result.exit_code, 5) << result.output_tail;
   EXPECT_GT(read_json(directory.path() / "table" / "agreement.json")["verdicts"]["failed"], 100);
+  EXPECT_THAT(result.output_tail, HasSubstr(" comparisons, none misses its target, "));
 }
 
 TEST(VerifyStability, RefusesBadPlacesBeforeItWorks) {

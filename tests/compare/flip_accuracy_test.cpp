@@ -79,7 +79,7 @@ class PlainFlip {
     }
   }
 
-  /// Of the filtered colour: L, a, b with the Hunt effect.
+  /// The filtered colour as L, a and b with the Hunt effect.
   Rgb colour(int x, int y) const {
     const double l = window(y_, filters_.luminance, filters_.luminance, x, y);
     const double cx = window(cx_, filters_.red_green, filters_.red_green, x, y);

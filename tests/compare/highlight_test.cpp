@@ -183,7 +183,7 @@ TEST(Region, GrowsAsThePlainLoopsSayForRandomRegions) {
   }
 }
 
-TEST(Region, OfAHighlightHasTheFiguresOfItsPixelsAndFlipOfThoseAroundThem) {
+TEST(RegionOfAHighlight, HasTheFiguresOfItsPixelsAndFlipOfThoseAroundThem) {
   const Image b = picture_of(60);
   const Image a = moved(scaled(b, 0.9f), 1);
   ComparisonOptions options;

@@ -71,7 +71,7 @@ inline Image noisy(NoiseKind kind, std::uint64_t seed, int samples) {
       }
       case NoiseKind::kFireflies:
         value += 0.05 * normal / std::sqrt(samples);
-        // Of expectation 0, so that a pixel without one is not too dark.
+        // A firefly's expectation is 0, so that a pixel without one is not too dark.
         if (uniform() < 0.002) value += 20 * (uniform() < 0.5 ? 1 : -1);
         break;
     }

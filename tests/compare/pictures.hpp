@@ -31,7 +31,7 @@ inline Image noise(int width, int height, std::uint64_t seed, float scale) {
   return image;
 }
 
-/// Of value(u, v), which run from -1 to 1; red is the strongest.
+/// Makes a picture of value(u, v), where u and v run from -1 to 1. Red is the strongest channel.
 template <class Value>
 Image reddish(int width, int height, Value value) {
   Image image(width, height);

@@ -25,7 +25,7 @@ inline bool has_program(const std::string& name) {
   return run("command -v " + name).exit_code == 0;
 }
 
-/// And links, relative to `directory`, sorted.
+/// The files and links below `directory`, relative to it and sorted.
 inline std::vector<std::string> files_below(const fs::path& directory) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(directory))

@@ -242,8 +242,8 @@ TEST_P(Agreement, OfTheSmallestPictureAndOfWideOnes) {
   expect_agreement({{"small", small}, {"flat", flat}, {"wide", wide}});
 }
 
-/// Widths, heights and the longer side, in which engines count an offset, are the same in a square.
-TEST_P(Agreement, OfAFilmAsideInAWideAndInATallPicture) {
+/// Engines count an offset in widths, heights or longer sides, which are the same in a square.
+TEST_P(Agreement, HoldsForAFilmAsideInAWideAndInATallPicture) {
   Scene wide = sphere_scene({"modified_phong", "cosine", "exact", 8}, {directional_at(20)}, 48);
   wide.film.height = 16;
   wide.camera.principal_point_offset_x = 0.1;

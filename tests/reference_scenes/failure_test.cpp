@@ -47,7 +47,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
         sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
   }
 
-  /// Of a scene.
+  /// The result of one scene, rendered by a program that does `body` and makes no picture.
   ReferenceResult failed(const std::string& body) {
     const auto engine = make_engine(GetParam(), program(body));
     ReferenceResult result = Session(*engine, {}).render(plain_scenes(1)[0]);

@@ -77,7 +77,7 @@ class NativeEngine : public WithRealEngine {
 TEST_P(NativeEngine, IsWithinItsFloorOfTheFormulasAndFindsAThousandthInTheirCoefficient) {
   const std::vector<Scene> all = shown(highlights({10, 100, 1000}));
   ASSERT_GE(all.size(), 6u);
-  // 5 divides neither the angles nor the exponents of a highlight, so that some have each.
+  // In steps of 5, from each scene to the next the exponent and the angle are other ones.
   const std::vector<Scene> scenes = some_of(all, 5);
   const EngineFloor floor = engine_->info().floor;
   render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
@@ -174,7 +174,7 @@ class FakeNativeEngine : public testing::TestWithParam<std::string> {
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     return make_engine(GetParam(), file);
   }
-  /// What its answer to --version begins with.
+  /// The first word of the engine's answer to --version.
   static std::string name() {
     const std::map<std::string, std::string> names = {{"tachyon", "Tachyon"},
                                                       {"sunflow", "Sunflow"},

@@ -24,7 +24,7 @@ struct Difference {
   bool finite = true;
 };
 
-/// The scene in other units and in another place: of the same picture.
+/// The scene in other units and in another place. Its picture stays the same.
 inline Scene moved(Scene scene, double scale, Vec3 away) {
   const auto move = [&](Vec3& place) { place = scale * (place + away); };
   move(scene.camera.origin);

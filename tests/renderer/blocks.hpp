@@ -49,8 +49,8 @@ inline double farthest(const Blocks& a, const Blocks& b) {
   return z;
 }
 
-/// Pictures of other seeds, until no block is farther apart than is allowed of so many, or they are too many for
-/// chance: what is rarely drawn makes a mean look certain that is not.
+/// Renders pictures of new seeds until no block is farther apart than is allowed for so many pictures, and fails after the
+/// last number of them. What is rarely drawn makes a mean look certain that is not, so that few pictures decide nothing.
 inline void expect_the_same_light(Scene scene, const RenderOptions& a, const RenderOptions& b,
                                   const std::vector<std::pair<int, double>>& pictures_and_allowed =
                                       {{32, 4.5}, {128, 5.0}, {1024, 5.5}},

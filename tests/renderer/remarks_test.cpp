@@ -65,7 +65,7 @@ TEST(Remarks, SayWhyAPictureIsBlackAndItIs) {
   }
 }
 
-TEST(Remarks, OfASceneWithoutShapesSayThatItsLightsAreLeftToSee) {
+TEST(Remarks, SayOfASceneWithoutShapesThatItsLightsAreLeftToSee) {
   Scene scene = plain();
   scene.spheres.clear();
   scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};

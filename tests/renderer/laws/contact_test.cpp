@@ -92,7 +92,7 @@ class RandomScene {
   Vec3 middle_, normal_;
 };
 
-/// f(random, its scene) of many, with each of the crowds.
+/// Calls f(random, its scene) for many random scenes with each of the crowds.
 template <class F>
 void for_random_scenes(std::initializer_list<int> crowds, const F& f) {
   for (const int crowd : crowds)
@@ -162,7 +162,7 @@ TEST(APointLampInAPlane, LightsBothSidesAsIfThePlaneWereNotThereAndNothingOfTheP
     const Image without = render(scene, {}).image;
     scene.planes = {random.black_plane()};
     const Image with = render(scene, {}).image;
-    // That would show itself if the lamp lit it.
+    // A matt plane would show itself if the lamp lit it.
     scene.planes[0].material = scene.planes[0].checker_material = 0;
     const Image with_matt_one = render(scene, {}).image;
     EXPECT_LT(peak_bound(scene, scene.lights), 1e4) << "of a lamp that is far from what it lights";

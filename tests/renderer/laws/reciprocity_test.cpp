@@ -40,7 +40,7 @@ TEST(EveryBrdf, IsTheSameWithLightAndEyeExchanged) {
 TEST(ReciprocityGap, IsRoundingForEveryBrdfAndLargeForEveryRdfUntilTheLobeTellsNoLightFromEye) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents)) {
     const double gap = reciprocity_gap(h);
-    // Of an RDF about lobe width over cosine at the last eye, 85 degrees.
+    // The gap of an RDF is about the lobe's width over the cosine at the last eye, 85 degrees.
     EXPECT_TRUE(info(h.model).applies_cosine
                     ? gap < 1e-11
                     : gap < 1 && gap > std::min(0.25, 5 / std::sqrt(h.exponent)))
