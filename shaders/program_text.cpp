@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "shaders/names.hpp"
 #include "shaders/runner_protocol.hpp"
@@ -88,17 +89,12 @@ bool is_word_character(char c) {
 }
 bool is_word(std::string_view token) { return is_word_character(token[0]); }
 
-/// Words and single characters, without comments. By hand, because std::regex takes stack for each character.
+/// Words and single characters of a plain text. By hand, because std::regex takes stack for each character.
 std::vector<std::string_view> tokens_of(std::string_view text) {
   std::vector<std::string_view> tokens;
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = at + 1;
-    if (text.substr(at, 2) == "//") {
-      end = std::min(text.find('\n', at), text.size());
-    } else if (text.substr(at, 2) == "/*") {
-      const std::size_t close = text.find("*/", at + 2);
-      end = close == text.npos ? text.size() : close + 2;
-    } else if (is_word_character(text[at])) {
+    if (is_word_character(text[at])) {
       while (end < text.size() && is_word_character(text[end])) ++end;
       tokens.push_back(text.substr(at, end - at));
     } else if (text[at] > ' ') {
@@ -109,12 +105,115 @@ std::vector<std::string_view> tokens_of(std::string_view text) {
   return tokens;
 }
 
+[[noreturn]] void refuse_line(const ShaderSource& source, std::string_view text, std::size_t at,
+                              std::string_view why) {
+  throw Error(ExitCode::kInput,
+              fmt::format("{}:{}: {}", source.name, 1 + count_lines(text.substr(0, at)), why));
+}
+
+/// A byte order mark belongs to the file, not to the shader.
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+/// With '\n' as the only line end. `joins`: a line that ends with '\\' goes on in the next one, and the line ends that are
+/// missing follow behind, so that the lines after keep their numbers.
+std::string joined_lines(std::string_view text, bool joins) {
+  std::string lines;
+  std::size_t missing = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool is_end = text[at] == '\n' || text[at] == '\r';
+    if (text.substr(at, 2) == "\r\n") ++at;
+    if (!is_end) {
+      lines += text[at];
+    } else if (joins && lines.ends_with('\\')) {
+      lines.pop_back();
+      ++missing;
+    } else {
+      lines.append(1 + missing, '\n');
+      missing = 0;
+    }
+  }
+  lines.append(missing, '\n');
+  return lines;
+}
+
+/// The place behind the comment that begins at `at`; npos if it does not end. `nests`: comments may hold others.
+std::size_t end_of_comment(std::string_view text, std::size_t at, bool nests) {
+  if (text.substr(at, 2) == "//") return std::min(text.find('\n', at), text.size());
+  std::size_t open = 0;
+  while (at < text.size()) {
+    const std::string_view two = text.substr(at, 2);
+    if (two == "/*" && (nests || open == 0)) {
+      ++open;
+      at += 2;
+    } else if (two == "*/") {
+      at += 2;
+      if (--open == 0) return at;
+    } else {
+      ++at;
+    }
+  }
+  return text.npos;
+}
+
+/// A blank in place of each comment. The line ends in it stay where they are, but for a directive, which they would end:
+/// they follow behind it.
+std::string without_comments(const ShaderSource& source, std::string_view text) {
+  std::string plain;
+  std::size_t missing = 0;
+  char first = 0;  // of the line, but for blanks
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view two = text.substr(at, 2);
+    if (two == "//" || two == "/*") {
+      const std::size_t end = end_of_comment(text, at, source.language == ShaderText::kWgsl);
+      if (end == text.npos) refuse_line(source, text, at, "this comment does not end");
+      const std::size_t inside = count_lines(text.substr(at, end - at));
+      at = end;
+      plain += ' ';
+      if (first == '#') {
+        missing += inside;
+      } else if (inside > 0) {
+        plain.append(inside, '\n');
+        first = 0;
+      }
+      continue;
+    }
+    const char c = text[at++];
+    plain += c;
+    if (c == '\n') {
+      plain.append(missing, '\n');
+      missing = 0;
+      first = 0;
+    } else if (first == 0 && c > ' ') {
+      first = c;
+    }
+  }
+  return plain;
+}
+
+/// An included file would be any that the user may read, or one that never ends.
+void refuse_includes(const ShaderSource& source, std::string_view plain) {
+  for (std::size_t at = 0; (at = plain.find('#', at)) != plain.npos;) {
+    const std::size_t begin = plain.rfind('\n', at) + 1,
+                      end = std::min(plain.find('\n', at), plain.size());
+    const auto tokens = tokens_of(plain.substr(begin, end - begin));
+    if (tokens.size() > 1 && tokens[0] == "#" && tokens[1] == "include")
+      refuse_line(source, plain, at,
+                  "#include is not allowed; a shader is one file, so put the text in its place");
+    at = end;
+  }
+}
+
 /// The text without its #version, and the one that a driver needs for it.
 struct Version {
   std::string line, rest;
+  std::size_t at = 0;  ///< the line of the text that had it; 0: none
 };
 Version take_version(const std::string& text, ShaderApi api) {
   std::string rest = text;
+  std::size_t at_line = 0;
   long long number = 0;
   bool is_es = false;
   for (std::size_t at = 0; at < text.size();) {
@@ -124,13 +223,14 @@ Version take_version(const std::string& text, ShaderApi api) {
         parse_integer(tokens[2], number)) {
       is_es = (tokens.size() > 3 && tokens[3] == "es") || number == 100;
       rest.replace(at, end - at, "");
+      at_line = 1 + count_lines(text.substr(0, at));
       break;
     }
     at = end + 1;
   }
-  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest};
+  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest, at_line};
   number = std::clamp(number, is_es ? 300LL : 330LL, 999LL);
-  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest};
+  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest, at_line};
 }
 
 }  // namespace
@@ -142,6 +242,17 @@ std::string_view vector_type(ShaderText language) {
 
 std::string shader_component(std::size_t i) {
   return fmt::format("lobelia_p{}.{}", i / 4, "xyzw"[i % 4]);
+}
+
+std::string plain_text(const ShaderSource& source) {
+  const std::string_view text = without_mark(source.text);
+  if (text.find('\0') != text.npos)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: it has zero bytes, as UTF-16 has; save it as UTF-8", source.name));
+  std::string plain =
+      without_comments(source, joined_lines(text, source.language != ShaderText::kWgsl));
+  refuse_includes(source, plain);
+  return plain;
 }
 
 ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_t points,
@@ -174,16 +285,20 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   if (source.repeats > 1)
     calls = fmt::format("    for ({} j = 0; j < {}; j++) {{ {}\n{}    }}\n",
                         is_wgsl ? "var" : "int", source.repeats, other_arguments, calls);
-  // With #line, the compiler counts as the user does.
-  std::string begin, text = source.text;
-  if (!is_hlsl && !is_wgsl) {
-    auto [version, rest] = take_version(source.text, api);
-    begin = version;
-    if (version.find(" es") != std::string::npos) begin += "precision highp float;\n";
-    if (functions_in(rest).contains("main")) begin += "#define main lobelia_main_of_file\n";
-    text = std::move(rest);
+  std::string begin, text = plain_text(source);
+  std::size_t version_line = 0;
+  if (is_wgsl) {
+    // WGSL has no directives, and ends lines at characters that plain_text() does not know.
+    text = without_mark(source.text);
+  } else if (!is_hlsl) {
+    Version version = take_version(text, api);
+    begin = version.line;
+    if (begin.find(" es") != std::string::npos) begin += "precision highp float;\n";
+    if (functions_in(version.rest).contains("main")) begin += "#define main lobelia_main_of_file\n";
+    text = std::move(version.rest);
+    version_line = version.at;
   }
-  ShaderProgram program{source.name, "", count_lines(begin), 0};
+  ShaderProgram program{source.name, "", count_lines(begin), 0, version_line};
   if (text.empty() || text.back() != '\n') text += '\n';
   program.lines = count_lines(text);
   const std::string_view main = is_wgsl                  ? kWgslMain
@@ -206,15 +321,18 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   return program;
 }
 
-std::set<std::string> functions_in(std::string_view text) {
-  const std::vector<std::string_view> tokens = tokens_of(text);
+std::set<std::string> functions_in(std::string_view plain) {
+  const std::vector<std::string_view> tokens = tokens_of(plain);
+  // For each token the first one from it on that ends parameters. Sought from each name anew, it would take for ever.
+  std::vector<std::size_t> ends(tokens.size() + 1, tokens.size());
+  for (std::size_t i = tokens.size(); i-- > 0;)
+    ends[i] = tokens[i] == ")" || tokens[i] == ";" || tokens[i] == "{" ? i : ends[i + 1];
   std::set<std::string> names;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
     if (!is_word(tokens[i]) || !is_word(tokens[i - 1]) || tokens[i + 1] != "(" ||
         tokens[i - 1] == "else" || tokens[i - 1] == "return")
       continue;
-    std::size_t at = i + 2;
-    while (at < tokens.size() && tokens[at] != ")" && tokens[at] != ";" && tokens[at] != "{") ++at;
+    const std::size_t at = ends[i + 2];
     // Behind the parameters HLSL may have a semantic, and WGSL has a type.
     constexpr std::size_t kMostBehind = 12;
     for (std::size_t k = at + 1; k < std::min(tokens.size(), at + kMostBehind); ++k) {
@@ -240,6 +358,8 @@ std::string compiler_message(const std::string& log, const ShaderProgram& progra
     const std::string words = printable(found[2].str(), 200);
     if (at > program.first_line && at <= program.first_line + program.lines)
       return fmt::format("{}:{}: {}", program.name, at - program.first_line, words);
+    if (at > 0 && at <= program.first_line && program.version_line > 0)
+      return fmt::format("{}:{}: {}", program.name, program.version_line, words);
     return fmt::format("{}: the call of the function does not compile: {}", program.name, words);
   }
   return fmt::format("{}: the compiler refuses it: {}", program.name,

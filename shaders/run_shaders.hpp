@@ -63,6 +63,7 @@ struct ShaderProgram {
   std::string name;
   std::string bytes;
   std::size_t first_line = 0, lines = 0;  ///< of the source in the text, for messages
+  std::size_t version_line = 0;  ///< of the source's #version in it, from 1; 0: it has none
 };
 
 /// The longest time of a run, which ends an endless loop.

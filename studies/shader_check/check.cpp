@@ -67,16 +67,16 @@ Plan make_plan(const Request& request) {
   return plan;
 }
 
-void require_function(const Request& request) {
-  std::set<std::string> names = functions_in(request.text);
+void require_function(const Request& request, const ShaderSource& source) {
+  std::set<std::string> names = functions_in(plain_text(source));
   names.erase("main");
   if (names.contains(request.function)) return;
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw Error(ExitCode::kInput,
-              known.empty() ? fmt::format("{}: has no function", printable_path(request.file))
-                            : fmt::format("{}: has no function '{}'; it has {}{}",
-                                          printable_path(request.file), printable(request.function),
-                                          join(known), did_you_mean(request.function, known)));
+              known.empty() ? fmt::format("{}: has no function", source.name)
+                            : fmt::format("{}: has no function '{}'; it has {}{}", source.name,
+                                          printable(request.function), join(known),
+                                          did_you_mean(request.function, known)));
 }
 
 /// What a part of the plan gave, beside the model in double.
@@ -225,13 +225,13 @@ void require_end(const Request& request, const ShaderSource& source, const Shade
 
 Check check_shader(const Request& request) {
   const Arguments arguments(request.arguments, request.highlight);
-  require_function(request);
-  const Plan plan = make_plan(request);
-  const ShaderPoints points = arguments.of(plan.points);
   const ShaderSource source{request.language,
                             printable_path(request.file),
                             request.text,
                             {arguments.call(request.function, request.language)}};
+  require_function(request, source);
+  const Plan plan = make_plan(request);
+  const ShaderPoints points = arguments.of(plan.points);
   const ShaderProgram program =
       make_program(source, request.api, points.count(), points.components);
   const ShaderRun run = run_programs(request.api, points, {program}, 1, {request.time_limit, 0});

@@ -240,12 +240,15 @@ TEST(Explain, FindsEachMistakeOfItsCatalogueInEveryModel) {
 }
 
 TEST(FunctionsIn, AreThoseThatATextDefinesInAnyLanguage) {
-  EXPECT_THAT(
-      functions_in("// float no(float x) {\n"
-                   "highp float a(vec3 N /* (normal) */,\n  float n) // here\n{ if (n > 0.0) "
-                   "{ return b(n); } else if (n < 1.0) { for (;;) {} } }\n"
-                   "float later(float x);\nvoid main(){}\n"),
-      testing::ElementsAre("a", "main"));
+  const ShaderSource commented{
+      ShaderText::kGlsl,
+      "mine.glsl",
+      "// float no(float x) {\n"
+      "highp float a(vec3 N /* (normal) */,\n  float n) // here\n{ if (n > 0.0) "
+      "{ return b(n); } else if (n < 1.0) { for (;;) {} } }\n"
+      "float later(float x);\nvoid main(){}\n",
+      {}};
+  EXPECT_THAT(functions_in(plain_text(commented)), testing::ElementsAre("a", "main"));
   EXPECT_THAT(functions_in("float4 c(float x : TEXCOORD0) : SV_Target { return x; }"),
               testing::ElementsAre("c"));
   EXPECT_THAT(functions_in("fn d(N: vec3f, n: f32) -> f32 { return n; }"),

@@ -1,0 +1,131 @@
+// A shader's text before a compiler sees it, and what a compiler says of it afterwards.
+#include "shaders/program_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/cli/run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr char kMark[] = "\xef\xbb\xbf";
+
+ShaderProgram program_of(const std::string& text, ShaderText language = ShaderText::kGlsl) {
+  const ShaderApi api = language == ShaderText::kGlsl   ? ShaderApi::kEgl
+                        : language == ShaderText::kHlsl ? ShaderApi::kVulkan
+                                                        : ShaderApi::kWebGpu;
+  return program_text({language, "mine", text, {"0.0"}}, api, 1, 1);
+}
+
+/// Why the text is bad input; "" if it is not.
+std::string refusal(const std::string& text, ShaderText language = ShaderText::kGlsl) {
+  try {
+    program_of(text, language);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PlainText, EveryWayToWriteAnIncludeIsRefusedByItsLine) {
+  const std::pair<std::string, int> ways[] = {
+      {"#include \"../pipe\"\nfloat x;\n", 1},
+      {"float x;\n  #\tinclude <a.h>\n", 2},
+      {"float x;\r#include \"a\"", 2},
+      {"float x;\r\n\r\n#include \"a\"\r\n", 3},
+      {"/* a\n b */ #include \"a\"\n", 2},
+      {"#/* a\n */include \"a\"\n", 1},
+      {"#in\\\nclude \"a\"\n", 1},
+      {"\n#\\\r\ninclude \"a\"\n", 2},
+      {"/\\\n* a */ #include \"a\"\n", 1},
+      {"// a \\\n b\n#include \"a\"\n", 3},
+      {"#if 0\n#include \"a\"\n#endif\n", 2},
+      {std::string(kMark) + "#include \"a\"\n", 1},
+  };
+  for (const ShaderText language : {ShaderText::kGlsl, ShaderText::kHlsl})
+    for (const auto& [text, line] : ways)
+      EXPECT_THAT(refusal(text, language),
+                  HasSubstr("mine:" + std::to_string(line) + ": #include is not allowed"))
+          << text;
+}
+
+TEST(PlainText, WhatIsNoIncludeIsNotRefusedAndNoneIsLeftInComments) {
+  for (const char* text : {"// #include \"a\"\n", "/* #include \"a\"\n#include \"b\" */\n",
+                           "#define include 1\n", "float include;\n", "// a \\\n#include \"a\"\n",
+                           // Whoever takes this for a string must find no directive behind it.
+                           "string s = \"/*\";\n#include \"a\"\n/* */\n"}) {
+    EXPECT_EQ(refusal(text, ShaderText::kHlsl), "") << text;
+    EXPECT_THAT(program_of(text, ShaderText::kHlsl).bytes, Not(HasSubstr("#include"))) << text;
+  }
+}
+
+TEST(PlainText, LinesKeepTheirNumbersAndMacrosTheirLines) {
+  const ShaderProgram program = program_of(
+      "/* a\n b */ int c;\r\n#define A 1 /* x\n y */ + \\\n 2\n// z \\\n z\nint m = A;\n");
+  const std::size_t place = program.bytes.find("int m = A;");
+  ASSERT_NE(place, std::string::npos);
+  const auto line =
+      1 + std::count(program.bytes.begin(), program.bytes.begin() + std::ptrdiff_t(place), '\n');
+  EXPECT_EQ(std::size_t(line) - program.first_line, 8u);
+  EXPECT_THAT(program.bytes, HasSubstr("#define A 1   +  2\n"));
+}
+
+TEST(PlainText, AByteOrderMarkIsNoPartOfTheShader) {
+  for (const ShaderText language : {ShaderText::kGlsl, ShaderText::kHlsl, ShaderText::kWgsl}) {
+    const std::string text = "const float a = 1.0;\n";
+    EXPECT_EQ(program_of(kMark + text, language).bytes, program_of(text, language).bytes);
+  }
+  EXPECT_THAT(program_of(std::string(kMark) + "#version 400\n").bytes,
+              testing::StartsWith("#version 400\n"));
+}
+
+TEST(PlainText, WhatNoCompilerCanReadIsRefusedInOneLine) {
+  EXPECT_EQ(refusal(std::string("\xff\xfe"
+                                "f\0",
+                                4)),
+            "mine: it has zero bytes, as UTF-16 has; save it as UTF-8");
+  EXPECT_EQ(refusal("float x;\n/* a\n"), "mine:2: this comment does not end");
+  EXPECT_EQ(refusal("/* a /* b */ */\n/* /* */\n", ShaderText::kWgsl),
+            "mine:2: this comment does not end");
+}
+
+TEST(CompilerMessage, AVersionThatTheDriverLacksIsNamedByItsLine) {
+  const ShaderProgram program = program_of("// mine\n#version 460 core\nfloat x;\n");
+  EXPECT_EQ(compiler_message("0:1(10): error: GLSL 4.60 is not supported. Supported versions "
+                             "are: 4.50, and 3.20 ES\n",
+                             program),
+            "mine:2: GLSL 4.60 is not supported. Supported versions are: 4.50, and 3.20 ES");
+  EXPECT_EQ(compiler_message("0:4(1): error: no\n", program), "mine:3: no");
+  EXPECT_THAT(compiler_message("0:90(1): error: no\n", program), HasSubstr("the call of"));
+}
+
+TEST(CheckShaderCommandWithoutADriver, AMillionBytesOfOpenCallsAreReadInOnePass) {
+  const TemporaryDirectory directory;
+  std::string text;
+  for (int i = 0; i < 200'000; ++i) text += "a a(\n";
+  write_file(directory.path() / "mine.glsl", text);
+  // Seconds of a processor, of which it takes a tenth; with a pass for each call it takes hundreds.
+  expect_one_line(
+      run_shell("ulimit -t 30\n\"$LOBELIA\" check-shader mine.glsl --function f --model "
+                "phong_rdf",
+                directory.path()),
+      3, "mine.glsl: has no function");
+}
+
+TEST(CheckShaderCommandWithoutADriver, AnIncludedPipeIsNotOpened) {
+  const TemporaryDirectory directory;
+  write_file(directory.path() / "mine.hlsl", "#include \"pipe\"\nfloat f(float n) { return n; }\n");
+  expect_one_line(run_shell("mkfifo pipe && \"$LOBELIA\" check-shader mine.hlsl --function f "
+                            "--arguments n --model phong_rdf",
+                            directory.path()),
+                  3, "mine.hlsl:1: #include is not allowed");
+}
+
+}  // namespace
+}  // namespace lobelia
