@@ -121,7 +121,8 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
              fmt::format("What runs GLSL: {}; otherwise egl. HLSL runs on vulkan, WGSL in Chromium",
                          join(kOnNames)));
   add_common(shader, "--time-limit", options->time_limit,
-             ": the shader is taken for an endless loop then")
+             ": a shader that has not ended then is refused, and costs that are not measured then "
+             "are left out")
       ->check(between(0.1, 3600))
       ->capture_default_str();
   OptionGroup model(*command, "Model");

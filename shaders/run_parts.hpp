@@ -1,9 +1,17 @@
-// What run_shaders.cpp and run_webgpu.cpp have in common.
+// Shared by run_shaders.cpp, run_webgpu.cpp and spirv.cpp.
 #pragma once
 
+#include "core/process.hpp"
 #include "shaders/run_shaders.hpp"
 
 namespace lobelia {
+
+/// An exit code over this is 128 + the signal that ended the program.
+inline constexpr int kSignalBase = 128;
+
+/// run_process() for what is left of the limit. Once that is over nothing is started, and the result has timed out.
+ProcessResult run_within(const TimeLimit& limit, const std::vector<std::string>& command,
+                         ProcessOptions options);
 
 /// The components of all points, padded to texels of four floats.
 std::vector<float> texels_of(const ShaderPoints& points);

@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io_module.hpp"
-#include "core/process.hpp"
 #include "core/text.hpp"
 #include "shaders/program_text.hpp"
 #include "shaders/run_parts.hpp"
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr char kPackages[] = "libegl-dev, libgl-dev, libvulkan-dev";
 constexpr std::uint64_t kRunnerMemory = std::uint64_t{4} << 30;
-constexpr int kSignalBase = 128;
 
 std::string runner_path() {
   try {
@@ -72,7 +70,7 @@ std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
   if (result.timed_out)
     throw Error(ExitCode::kInput,
                 fmt::format("{}: the shader did not end within {:g} s on {}", name,
-                            options.time_limit.count(),
+                            options.time_limit.seconds(),
                             said.device.empty() ? kShaderApiNames[int(api)] : said.device));
   if (result.out_of_memory)
     throw Error(ExitCode::kEngine, fmt::format("{}: the shader runner ran out of memory", name));
@@ -94,6 +92,15 @@ std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
 }
 
 }  // namespace
+
+ProcessResult run_within(const TimeLimit& limit, const std::vector<std::string>& command,
+                         ProcessOptions options) {
+  options.timeout = limit.left();
+  if (options.timeout.count() > 0) return run_process(command, options);
+  ProcessResult over;
+  over.timed_out = true;
+  return over;
+}
 
 bool has_graphics_hardware() {
   std::error_code ignored;
@@ -148,10 +155,9 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
   // Of the user's own environment, which chooses drivers; but no driver keeps a shader of somebody else.
   process.environment = {"MESA_SHADER_CACHE_DISABLE=true", "__GL_SHADER_DISK_CACHE=0"};
   if (!has_graphics_hardware()) process.writable = scratch.path();
-  process.timeout = options.time_limit;
   process.memory_limit = kRunnerMemory;
   process.on_line = [&](std::string_view line) { said.add(line); };
-  const ProcessResult result = run_process(command, process);
+  const ProcessResult result = run_within(options.time_limit, command, std::move(process));
   if (result.exit_code != kRunnerDone || result.timed_out)
     fail(result, api, said, programs, options);
   ShaderRun run{said.device, said.driver, {}, std::move(said.seconds)};

@@ -66,23 +66,43 @@ struct ShaderProgram {
   std::size_t version_line = 0;  ///< of the source's #version in it, from 1; 0: it has none
 };
 
-/// The longest time of a run, which ends an endless loop.
+/// The usual limit, which ends an endless loop.
 inline constexpr std::chrono::duration<double> kShaderTimeLimit = std::chrono::seconds(60);
 
-/// Makes a program for points of that number. Throws Error(kInput), naming file and line, if glslang refuses it, and
-/// Error(kEngine) if glslang is missing. Nothing checks GLSL for EGL and WGSL before they run.
-ShaderProgram make_program(const ShaderSource& source, ShaderApi api, std::size_t points,
-                           std::size_t components);
+/// A limit on time that begins when it is made. Compilers and drivers that are given the same one share its time.
+class TimeLimit {
+ public:
+  template <class Number, class Unit>
+  TimeLimit(std::chrono::duration<Number, Unit> allowed)
+      : allowed_(allowed),
+        end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed_)) {}
+  double seconds() const { return allowed_.count(); }  ///< in all
+  /// 0 or less once it is over.
+  std::chrono::duration<double> left() const { return end_ - Clock::now(); }
 
-/// The program with all its float arithmetic in half floats, by spirv-opt; for Vulkan. Throws Error(kEngine) if spirv-opt
-/// is missing or refuses it.
-ShaderProgram in_half_floats(const ShaderProgram& program);
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::chrono::duration<double> allowed_;
+  Clock::time_point end_;
+};
+
+/// Makes a program for points of that number. Throws Error(kInput), naming file and line, if the text has an #include or
+/// glslang refuses it, and naming the file if glslang does not end in time; Error(kEngine) if glslang is missing or
+/// crashes. Nothing compiles GLSL for EGL and WGSL before they run.
+ShaderProgram make_program(const ShaderSource& source, ShaderApi api, std::size_t points,
+                           std::size_t components, const TimeLimit& limit = kShaderTimeLimit);
+
+/// The program with all its float arithmetic in half floats, by spirv-opt; for Vulkan. Throws Error(kInput) if spirv-opt
+/// does not end in time, and Error(kEngine) if it is missing, crashes or refuses the program.
+ShaderProgram in_half_floats(const ShaderProgram& program,
+                             const TimeLimit& limit = kShaderTimeLimit);
 
 /// The number of instructions of the optimised program that compute, compare or branch, by spirv-opt; for Vulkan. Errors as in_half_floats().
-std::size_t count_instructions(const ShaderProgram& program);
+std::size_t count_instructions(const ShaderProgram& program,
+                               const TimeLimit& limit = kShaderTimeLimit);
 
 struct ShaderRunOptions {
-  std::chrono::duration<double> time_limit = kShaderTimeLimit;
+  TimeLimit time_limit = kShaderTimeLimit;
   int rounds = 0;  ///< for `seconds`: each round runs every program once
 };
 

@@ -10,7 +10,6 @@
 #include "core/base64.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/process.hpp"
 #include "core/text.hpp"
 #include "shaders/program_text.hpp"
 #include "shaders/run_parts.hpp"
@@ -134,10 +133,9 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
   command.push_back(page.string());
   ProcessOptions process;
   process.working_directory = scratch.path();
-  process.timeout = options.time_limit;
   process.stop = &heard.done;
   process.on_line = [&](std::string_view line) { heard.add(line); };
-  const ProcessResult result = run_process(command, process);
+  const ProcessResult result = run_within(options.time_limit, command, std::move(process));
   const std::string& name = programs.front().name;
   if (!heard.done && result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   if (heard.refused)
@@ -148,7 +146,7 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
     throw Error(result.timed_out ? ExitCode::kInput : ExitCode::kEngine,
                 result.timed_out
                     ? fmt::format("{}: the shader did not end within {:g} s on {}", name,
-                                  options.time_limit.count(),
+                                  options.time_limit.seconds(),
                                   heard.device.empty() ? "webgpu" : heard.device)
                     : fmt::format("{}: Chromium ended with exit code {} while it ran the shader",
                                   name, result.exit_code));

@@ -212,7 +212,9 @@ void add_pictures(const Plan& plan, Judge& judge, Check& check) {
 void require_end(const Request& request, const ShaderSource& source, const ShaderPoints& points) {
   if (request.api == ShaderApi::kWebGpu) return;
   const double times = times_as_long_as_pow(
-      request, make_program(source, request.api, points.count(), points.components), points);
+      request,
+      make_program(source, request.api, points.count(), points.components, request.time_limit),
+      points);
   if (times > kOfALoop)
     throw Error(
         ExitCode::kInput,
@@ -233,7 +235,7 @@ Check check_shader(const Request& request) {
   const Plan plan = make_plan(request);
   const ShaderPoints points = arguments.of(plan.points);
   const ShaderProgram program =
-      make_program(source, request.api, points.count(), points.components);
+      make_program(source, request.api, points.count(), points.components, request.time_limit);
   const ShaderRun run = run_programs(request.api, points, {program}, 1, {request.time_limit, 0});
 
   Check check;

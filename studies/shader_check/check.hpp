@@ -1,7 +1,6 @@
 // Checks a shader function against a model: `lobelia check-shader`.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,10 @@ struct Request {
   ShaderText language = ShaderText::kGlsl;
   ShaderApi api = ShaderApi::kEgl;
   std::string function, arguments;
-  Highlight highlight;            ///< without its exponent
-  std::vector<double> exponents;  ///< not empty
-  double shown_exponent = 64;     ///< of pictures and the curve
-  std::chrono::duration<double> time_limit = kShaderTimeLimit;
+  Highlight highlight;                      ///< without its exponent
+  std::vector<double> exponents;            ///< not empty
+  double shown_exponent = 64;               ///< of pictures and the curve
+  TimeLimit time_limit = kShaderTimeLimit;  ///< of all that compiles and runs shaders, together
   bool costs = true;  ///< whether to measure half floats, instructions and time
 };
 inline constexpr double kUsualExponents[] = {1, 4, 16, 64, 256, 1000};

@@ -88,7 +88,8 @@ class Costs {
     std::vector<ShaderProgram> programs;
     for (ShaderSource source : sources_) {
       source.repeats = kRepeats;
-      programs.push_back(make_program(source, request_.api, points_.count(), points_.components));
+      programs.push_back(make_program(source, request_.api, points_.count(), points_.components,
+                                      request_.time_limit));
     }
     const ShaderRun run =
         run_programs(request_.api, points_, programs, 1, {request_.time_limit, kRounds});
@@ -118,7 +119,7 @@ class Costs {
   }
 
   void half_floats(const std::vector<Point>& domain, const std::vector<ShaderValue>& values) {
-    const ShaderProgram half = in_half_floats(spirv(sources_.front()));
+    const ShaderProgram half = in_half_floats(spirv(sources_.front()), request_.time_limit);
     const ShaderRun run =
         run_programs(ShaderApi::kVulkan, points_, {half}, 1, {request_.time_limit, 0});
     std::map<double, records::ShaderHalf> worst;
@@ -142,10 +143,11 @@ class Costs {
 
  private:
   ShaderProgram spirv(const ShaderSource& source) const {
-    return make_program(source, ShaderApi::kVulkan, points_.count(), points_.components);
+    return make_program(source, ShaderApi::kVulkan, points_.count(), points_.components,
+                        request_.time_limit);
   }
   std::size_t instructions(const ShaderSource& source) const {
-    return count_instructions(spirv(source));
+    return count_instructions(spirv(source), request_.time_limit);
   }
 
   const Request& request_;
@@ -159,10 +161,11 @@ class Costs {
 double times_as_long_as_pow(const Request& request, const ShaderProgram& program,
                             const ShaderPoints& points) {
   constexpr int kFewRounds = 5;
-  const ShaderRun run = run_programs(request.api, points,
-                                     {program, make_program(power(request.language), request.api,
-                                                            points.count(), points.components)},
-                                     1, {request.time_limit, kFewRounds});
+  const ShaderRun run =
+      run_programs(request.api, points,
+                   {program, make_program(power(request.language), request.api, points.count(),
+                                          points.components, request.time_limit)},
+                   1, {request.time_limit, kFewRounds});
   return std::ranges::min(run.seconds[0]) / std::ranges::min(run.seconds[1]);
 }
 
