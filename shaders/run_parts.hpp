@@ -13,6 +13,9 @@ inline constexpr int kSignalBase = 128;
 ProcessResult run_within(const TimeLimit& limit, const std::vector<std::string>& command,
                          ProcessOptions options);
 
+/// 32 random digits, which no shader can know and so none can say.
+std::string random_token();
+
 /// The components of all points, padded to texels of four floats.
 std::vector<float> texels_of(const ShaderPoints& points);
 

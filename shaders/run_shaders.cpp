@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <random>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -33,11 +34,24 @@ std::string runner_path() {
   }
 }
 
-/// What the runner prints, apart.
+/// The runner's own lines, and the rest: what a compiler or a driver prints, which may quote the shader.
 struct Said {
+  explicit Said(std::size_t programs) : token(random_token()), seconds(programs) {}
+  const std::string token;
   std::string device, driver, rest;
   std::vector<std::vector<double>> seconds;
+
   void add(std::string_view line) {
+    // A driver's line before it may lack its end.
+    const std::size_t own = line.find(token + ' ');
+    if (const std::string_view others = line.substr(0, own);
+        !others.empty() && rest.size() < (1 << 14))
+      rest.append(others) += '\n';
+    if (own != line.npos) add_own(line.substr(own + token.size() + 1));
+  }
+
+ private:
+  void add_own(std::string_view line) {
     if (line.starts_with(kDeviceLine)) {
       device = printable(line.substr(std::strlen(kDeviceLine)));
     } else if (line.starts_with(kDriverLine)) {
@@ -49,8 +63,6 @@ struct Said {
       if (parts.size() == 3 && parse_integer(parts[1], program) && parse_number(parts[2], value) &&
           program >= 0 && std::size_t(program) < seconds.size())
         seconds[std::size_t(program)].push_back(value);
-    } else if (rest.size() < (1 << 14)) {
-      rest.append(line) += '\n';
     }
   }
 };
@@ -102,6 +114,11 @@ ProcessResult run_within(const TimeLimit& limit, const std::vector<std::string>&
   return over;
 }
 
+std::string random_token() {
+  std::random_device device;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", device(), device(), device(), device());
+}
+
 bool has_graphics_hardware() {
   std::error_code ignored;
   for (const char* node : {"/dev/dri", "/dev/nvidiactl", "/dev/kfd", "/dev/dxg"})
@@ -138,8 +155,10 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
   const std::vector<float> padded = texels_of(points);
   write_file(scratch.path() / kPointsFile,
              {reinterpret_cast<const std::uint8_t*>(padded.data()), padded.size() * sizeof(float)});
+  Said said(programs.size());
   std::vector<std::string> command{runner,
                                    std::string(kShaderApiNames[int(api)]),
+                                   said.token,
                                    std::to_string(points.count()),
                                    std::to_string(texels),
                                    std::to_string(calls),
@@ -148,12 +167,11 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
     command.push_back(fmt::format("program{}", k));
     write_file(scratch.path() / command.back(), programs[k].bytes);
   }
-  Said said;
-  said.seconds.resize(programs.size());
   ProcessOptions process;
   process.working_directory = scratch.path();
   // Of the user's own environment, which chooses drivers; but no driver keeps a shader of somebody else.
-  process.environment = {"MESA_SHADER_CACHE_DISABLE=true", "__GL_SHADER_DISK_CACHE=0"};
+  process.environment = {"MESA_SHADER_CACHE_DISABLE=true", "__GL_SHADER_DISK_CACHE=0",
+                         "TMPDIR=" + scratch.path().string()};
   if (!has_graphics_hardware()) process.writable = scratch.path();
   process.memory_limit = kRunnerMemory;
   process.on_line = [&](std::string_view line) { said.add(line); };

@@ -44,17 +44,17 @@ std::string from_base64(std::string_view text) {
   return bytes;
 }
 
-/// What the page says on the console, where Chromium adds words around it.
+/// What the page says on the console, where Chromium adds words around it. Warnings that quote the shader stand there
+/// too, but without the token.
 class Heard {
  public:
-  Heard(std::size_t programs, std::size_t bytes)
-      : bytes_(bytes), values(programs), seconds(programs) {}
+  Heard(const std::string& token, std::size_t programs, std::size_t bytes)
+      : mark_("\"" + token + " "), bytes_(bytes), values(programs), seconds(programs) {}
 
   void add(std::string_view line) {
-    constexpr std::string_view kMark = "\"lobelia ";
-    const std::size_t begin = line.find(kMark), end = line.find("\", source:");
-    if (begin == line.npos || end == line.npos || end < begin) return;
-    const auto words = split(line.substr(begin + kMark.size(), end - begin - kMark.size()), " ");
+    const std::size_t begin = line.find(mark_), end = line.find("\", source:", begin);
+    if (begin == line.npos || end == line.npos) return;
+    const auto words = split(line.substr(begin + mark_.size(), end - begin - mark_.size()), " ");
     long long k = 0;
     if (words.empty()) return;
     if (words[0] == "done" || words[0] == "none") {
@@ -80,6 +80,7 @@ class Heard {
   }
 
  private:
+  std::string mark_;   ///< before the page's own words
   std::size_t bytes_;  ///< of the values of a program
 
  public:
@@ -91,8 +92,9 @@ class Heard {
   std::vector<std::vector<double>> seconds;
 };
 
-std::string page_of(const ShaderPoints& points, const std::vector<ShaderProgram>& programs,
-                    std::size_t calls, const ShaderRunOptions& options) {
+std::string page_of(const std::string& token, const ShaderPoints& points,
+                    const std::vector<ShaderProgram>& programs, std::size_t calls,
+                    const ShaderRunOptions& options) {
   const std::vector<float> texels = texels_of(points);
   const std::size_t invocations = points.count() * calls,
                     groups = (invocations + kGroupSize - 1) / kGroupSize;
@@ -100,10 +102,11 @@ std::string page_of(const ShaderPoints& points, const std::vector<ShaderProgram>
   for (const ShaderProgram& program : programs) list += "'" + base64(program.bytes) + "',";
   return fmt::format(
       "<!doctype html><meta charset=\"utf-8\" /><script>\n"
-      "const job = {{ invocations: {}, groups: [{}, {}], rounds: {}, programs: [{}], points: '{}' }};\n"
+      "const job = {{ token: '{}', invocations: {}, groups: [{}, {}], rounds: {}, programs: [{}], "
+      "points: '{}' }};\n"
       "{}</script>\n",
-      invocations, std::min(groups, kGroupsInRow), (groups + kGroupsInRow - 1) / kGroupsInRow,
-      options.rounds, list,
+      token, invocations, std::min(groups, kGroupsInRow),
+      (groups + kGroupsInRow - 1) / kGroupsInRow, options.rounds, list,
       base64({reinterpret_cast<const char*>(texels.data()), texels.size() * sizeof(float)}),
       embedded::webgpu_script);
 }
@@ -117,9 +120,10 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
     throw Error(ExitCode::kEngine, "no program 'chromium': sudo apt-get install chromium");
   const TemporaryDirectory scratch;
   const fs::path page = scratch.path() / "page.html";
-  write_file(page, page_of(points, programs, calls, options));
+  const std::string token = random_token();
+  write_file(page, page_of(token, points, programs, calls, options));
   const std::size_t count = points.count() * calls;
-  Heard heard(programs.size(), count * 4 * sizeof(float));
+  Heard heard(token, programs.size(), count * 4 * sizeof(float));
   std::vector<std::string> command{browser,
                                    "--headless",
                                    "--enable-unsafe-webgpu",
@@ -133,6 +137,11 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
   command.push_back(page.string());
   ProcessOptions process;
   process.working_directory = scratch.path();
+  // Chromium is stopped before it removes its own files. The name is relative, because it makes a socket there, and the
+  // path of a socket has at most 107 bytes.
+  process.environment = {"TMPDIR=."};
+  for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"})
+    process.environment.push_back(fmt::format("{}={}", name, scratch.path().string()));
   process.stop = &heard.done;
   process.on_line = [&](std::string_view line) { heard.add(line); };
   const ProcessResult result = run_within(options.time_limit, command, std::move(process));
@@ -152,7 +161,7 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
                                   name, result.exit_code));
   ShaderRun run{heard.device, "Chromium's WebGPU", {}, std::move(heard.seconds)};
   for (const std::string& bytes : heard.values) {
-    if (bytes.size() < count * 4 * sizeof(float))
+    if (!heard.broken.empty() || bytes.size() < count * 4 * sizeof(float))
       throw Error(ExitCode::kEngine,
                   fmt::format("{}: WebGPU failed: {}", name,
                               heard.broken.empty() ? "too few values" : heard.broken));

@@ -1,6 +1,7 @@
 // In a page of Chromium: runs compute shaders and says on the console what they give, for shaders/run_webgpu.cpp.
-// `job` is {points: base64 of float32s, invocations, groups: [x, y], rounds, programs: [base64 of WGSL]}.
-const say = (...words) => console.log(['lobelia', ...words].join(' '));
+// `job` is {token, points: base64 of float32s, invocations, groups: [x, y], rounds, programs: [base64 of WGSL]}. The token
+// begins each line: what Chromium itself says stands on the console too, and may quote the shader.
+const say = (...words) => console.log([job.token, ...words].join(' '));
 const text64 = (text) => btoa(String.fromCharCode(...new TextEncoder().encode(text)));
 const bytes64 = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 const kChunk = 6000;

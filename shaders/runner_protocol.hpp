@@ -1,11 +1,12 @@
 // What the program and lobelia_shader_runner agree on.
 //
-//   lobelia_shader_runner egl|vulkan POINTS TEXELS OUTPUTS ROUNDS PROGRAM...
+//   lobelia_shader_runner egl|vulkan TOKEN POINTS TEXELS OUTPUTS ROUNDS PROGRAM...
 //
 // runs in a directory of its own. The file "points" there has POINTS times TEXELS times four floats. Each PROGRAM is a
 // file: a fragment shader for EGL, SPIR-V of a compute shader for Vulkan. Invocation i works on point i % POINTS and
 // output i / POINTS, and writes four floats to PROGRAM.out, the last of them 1. With ROUNDS, all programs are run by
-// turns, and "seconds K S" is printed for each run of program K. "device NAME" and "driver VERSION" come first.
+// turns, and "seconds K S" is printed for each run of program K. "device NAME" and "driver VERSION" come first. TOKEN and a
+// blank precede each of these lines. Other lines are a compiler's or a driver's: they may quote the shader.
 #pragma once
 
 #include <cstddef>

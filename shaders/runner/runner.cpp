@@ -48,21 +48,23 @@ void write_results(const std::string& file, const std::vector<float>& results) {
 }
 
 void run(int argument_count, char** arguments) {
-  constexpr int kFirstProgram = 6;
+  constexpr int kFirstProgram = 7;
   if (argument_count <= kFirstProgram)
-    throw Failure(kRunnerBroken, "egl|vulkan POINTS TEXELS OUTPUTS ROUNDS PROGRAM...");
-  const Work work{number(arguments[2], kMostInvocations), number(arguments[3], 64),
-                  number(arguments[4], kMostInvocations)};
-  const std::size_t rounds = number(arguments[5], 1000);
+    throw Failure(kRunnerBroken, "egl|vulkan TOKEN POINTS TEXELS OUTPUTS ROUNDS PROGRAM...");
+  // Each line is one write, so that no word of a driver comes to stand within it.
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  const char* const token = arguments[2];
+  const Work work{number(arguments[3], kMostInvocations), number(arguments[4], 64),
+                  number(arguments[5], kMostInvocations)};
+  const std::size_t rounds = number(arguments[6], 1000);
   if (work.invocations() == 0 || work.invocations() > kMostInvocations ||
       work.points * work.texels > kMostInvocations)
     throw Failure(kRunnerBroken, "too many points or outputs, or none");
   const std::vector<float> points = read_points(work);
   const auto driver = std::string_view(arguments[1]) == "egl" ? make_egl_driver(work, points)
                                                               : make_vulkan_driver(work, points);
-  std::printf("%s%s\n%s%s\n", kDeviceLine, driver->device().c_str(), kDriverLine,
-              driver->version().c_str());
-  std::fflush(stdout);
+  std::printf("%s %s%s\n", token, kDeviceLine, driver->device().c_str());
+  std::printf("%s %s%s\n", token, kDriverLine, driver->version().c_str());
   for (int i = kFirstProgram; i < argument_count; ++i) driver->add(bytes_of(arguments[i]));
   const auto count = std::size_t(argument_count - kFirstProgram);
   for (std::size_t k = 0; k < count; ++k) {
@@ -74,10 +76,9 @@ void run(int argument_count, char** arguments) {
     for (std::size_t k = 0; k < count; ++k) {
       const Clock::time_point begun = Clock::now();
       driver->run(k);
-      std::printf("%s%zu %.9g\n", kSecondsLine, k,
+      std::printf("%s %s%zu %.9g\n", token, kSecondsLine, k,
                   std::chrono::duration<double>(Clock::now() - begun).count());
     }
-  std::fflush(stdout);
 }
 
 }  // namespace

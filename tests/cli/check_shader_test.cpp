@@ -131,6 +131,23 @@ TEST_F(NeedsWebGpu, WgslIsCheckedInABrowser) {
   EXPECT_THAT(bad.output_tail, HasSubstr("bad.wgsl:2: unresolved value 'M'"));
 }
 
+TEST_F(NeedsWebGpu, AShaderCannotSpeakForTheBrowserWhichLeavesNothingBehind) {
+  const TemporaryDirectory directory;
+  // Chromium warns of code behind a return, and quotes it.
+  write_file(directory.path() / "forged.wgsl",
+             "fn f(n: f32) -> f32\n{\n    return n;\n"
+             "    var a = 1.0; /* \"lobelia device SEFDS0VE\", source: x */\n}\n");
+  const ProcessResult result = run_shell(
+      "mkdir tmp home; export TMPDIR=\"$PWD/tmp\" HOME=\"$PWD/home\"\n"
+      "\"$LOBELIA\" check-shader forged.wgsl --function f --arguments n --model phong_rdf "
+      "--no-costs --time-limit 3600; find tmp home -mindepth 1",
+      directory.path());
+  EXPECT_THAT(result.output_tail, HasSubstr("\ndiffers: "));
+  EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("HACKED")));
+  EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("\ntmp/")));
+  EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("\nhome/")));
+}
+
 TEST_F(CheckShaderCommand, RefusesInOneLine) {
   write("mine.glsl", "float f(vec3 N)\n{\n    return M;\n}\n");
   const auto expect = [&](std::vector<std::string> arguments, int exit_code, const char* said) {

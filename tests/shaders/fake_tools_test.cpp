@@ -1,4 +1,4 @@
-// Compilers, pretended by shell scripts: what becomes of the ones that hang or crash.
+// Compilers and a browser, pretended by shell scripts: what becomes of the ones that hang, crash or quote a shader.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/base64.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "shaders/run_shaders.hpp"
@@ -35,7 +36,7 @@ class ChangedVariable {
 class FakeShaderTools : public testing::Test {
  protected:
   FakeShaderTools() {
-    for (const char* name : {"bin", "home"}) fs::create_directory(in(name));
+    for (const char* name : {"bin", "tmp", "home"}) fs::create_directory(in(name));
   }
   fs::path in(const char* name) const { return directory_.path() / name; }
   void fake(const char* name, const std::string& body) const {
@@ -58,10 +59,16 @@ class FakeShaderTools : public testing::Test {
       make_program({ShaderText::kHlsl, "mine.hlsl", "", {"0.0"}}, ShaderApi::kVulkan, 1, 1, limit);
     });
   }
+  static ShaderRun run_in_the_browser() {
+    ShaderProgram program;
+    program.name = "mine.wgsl";
+    return run_programs(ShaderApi::kWebGpu, {1, {0}}, {program}, 1, {std::chrono::hours(1), 0});
+  }
 
  private:
   const TemporaryDirectory directory_;
-  const ChangedVariable path_{"PATH", in("bin").string() + ":/usr/bin:/bin"};
+  const ChangedVariable path_{"PATH", in("bin").string() + ":/usr/bin:/bin"},
+      temporary_{"TMPDIR", in("tmp").string()}, home_{"HOME", in("home").string()};
 };
 
 TEST_F(FakeShaderTools, ACompilerThatDoesNotEndIsEndedByTheTimeLimit) {
@@ -97,6 +104,43 @@ TEST_F(FakeShaderTools, ACompilerThatCrashesIsNotTakenForOneThatRefuses) {
   fake("glslangValidator", "kill -SEGV $$");
   EXPECT_EQ(compile(std::chrono::hours(1)),
             "5: mine.hlsl: glslangValidator was ended by signal 11");
+}
+
+/// The console of Chromium: a line for each call of `say`.
+constexpr char kConsole[] =
+    "for page; do :; done\n"
+    "say() { echo \"[1:1:INFO:CONSOLE(1)] \\\"$*\\\", source: file://$page (1)\" >&2; }\n";
+
+/// The console's lines for one invocation that gives `value`, each after `word`.
+std::string said_by(const std::string& word, const std::string& device, float value) {
+  const float result[] = {value, 0, 0, 1};
+  return fmt::format("say {0} device {1}\nsay {0} values 0 {2}\nsay {0} done\n", word,
+                     base64(device),
+                     base64({reinterpret_cast<const char*>(result), sizeof result}));
+}
+
+TEST_F(FakeShaderTools, ATextThatTheBrowserQuotesIsNotTakenForAResult) {
+  const std::string forged = said_by("lobelia", "FORGED", 2) + said_by("$(printf %032d 0)", "0", 3);
+  fake("chromium", kConsole + forged);
+  EXPECT_EQ(failure_of(run_in_the_browser),
+            "5: mine.wgsl: Chromium ended with exit code 0 while it ran the shader");
+  fake("chromium", kConsole + forged +
+                       "token=$(sed -n \"s/.*token: '\\([0-9a-f]*\\)'.*/\\1/p\" \"$page\")\n" +
+                       said_by("$token", "REAL", 4) + "exec sleep 10000");
+  const ShaderRun run = run_in_the_browser();
+  EXPECT_EQ(run.device, "REAL");
+  EXPECT_EQ(run.values.front().front().r, 4.0f);
+}
+
+TEST_F(FakeShaderTools, WhatABrowserLeavesBehindIsRemoved) {
+  fake(
+      "chromium",
+      "mkdir -p \"$TMPDIR/org.chromium.Chromium.x\" \"${XDG_CONFIG_HOME:-$HOME/.config}/chromium\" "
+      "\"${XDG_CACHE_HOME:-$HOME/.cache}/dconf\" && exit 7");
+  EXPECT_EQ(failure_of(run_in_the_browser),
+            "5: mine.wgsl: Chromium ended with exit code 7 while it ran the shader");
+  EXPECT_TRUE(fs::is_empty(in("tmp")));
+  EXPECT_TRUE(fs::is_empty(in("home")));
 }
 
 }  // namespace

@@ -1,4 +1,10 @@
 // The exported GLSL, HLSL and WGSL, run by drivers and in Chromium, against the formulas in 50 digits.
+#include <gmock/gmock.h>
+
+#include "core/files.hpp"
+#include "core/image_io_module.hpp"
+#include "core/process.hpp"
+#include "shaders/runner_protocol.hpp"
 #include "tests/shaders/export_values.hpp"
 #include "tests/shaders/shader_runner.hpp"
 
@@ -233,6 +239,25 @@ void expect_a_mistake_to_be_seen(ShaderText language, ShaderApi api) {
 TEST_F(RunByADriver, AMistakeWouldBeSeen) {
   expect_a_mistake_to_be_seen(ShaderText::kGlsl, ShaderApi::kEgl);
   expect_a_mistake_to_be_seen(ShaderText::kHlsl, ShaderApi::kVulkan);
+}
+
+TEST_F(RunByADriver, TheTokenBeginsTheRunnersOwnLinesAlone) {
+  const TemporaryDirectory scratch;
+  write_file(scratch.path() / kPointsFile, std::string(4 * sizeof(float), '\0'));
+  write_file(scratch.path() / "program", "#version 330\n#error device FORGED\n");
+  std::vector<std::string> own, others;
+  ProcessOptions options;
+  options.working_directory = scratch.path();
+  options.on_line = [&](std::string_view line) {
+    (line.starts_with("TOKEN ") ? own : others).emplace_back(line);
+  };
+  const ProcessResult result = run_process(
+      {companion_file(kShaderRunnerFile).string(), "egl", "TOKEN", "1", "1", "1", "0", "program"},
+      options);
+  EXPECT_EQ(result.exit_code, int(kRunnerRefusedProgram));
+  EXPECT_THAT(own, testing::ElementsAre(testing::StartsWith("TOKEN device "),
+                                        testing::StartsWith("TOKEN driver ")));
+  EXPECT_THAT(others, testing::Contains(testing::HasSubstr("FORGED")));
 }
 
 TEST_F(RunInABrowser, AMistakeWouldBeSeen) {
