@@ -203,9 +203,13 @@ std::string shell_join(std::span<const std::string> arguments) {
 }
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
+  double number = 0;
+  const bool is_formula =
+      text.size() > 1 && text.find_first_of("=+-@\t\r\n") == 0 && !parse_whole(text, number);
+  const std::string field = (is_formula ? "'" : "") + std::string(text);
+  if (field.find_first_of(",\"\r\n") == field.npos) return field;
   std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
 

@@ -37,7 +37,8 @@ std::string escape_markup(std::string_view text);
 /// An argument for a POSIX shell, quoted only if necessary.
 std::string shell_quote(std::string_view argument);
 std::string shell_join(std::span<const std::string> arguments);
-/// A field of a CSV table (RFC 4180), quoted only if necessary.
+/// A field of a CSV table (RFC 4180), quoted only if necessary. A text that spreadsheets would run as a formula begins with
+/// an apostrophe; a number stays as it is.
 std::string csv_field(std::string_view text);
 /// Replaces each byte that is not UTF-8 by U+FFFD: a file name may hold any bytes.
 std::string valid_utf8(std::string_view text);

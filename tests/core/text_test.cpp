@@ -110,5 +110,14 @@ TEST(CsvField, IsInQuotesOnlyWhereItHasToBe) {
   EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
 }
 
+TEST(CsvField, ATextThatASpreadsheetWouldRunBeginsWithAnApostrophe) {
+  EXPECT_EQ(csv_field("=HYPERLINK(\"http://x\",1).exr"), "\"'=HYPERLINK(\"\"http://x\"\",1).exr\"");
+  for (const char* text :
+       {"=1+1", "+a", "-a", "@SUM(A1)", "\t=1", "-1+cmd|' /C calc'!A0", "+1.exr"})
+    EXPECT_EQ(csv_field(text), "'" + std::string(text));
+  for (const char* text : {"-0.5", "+1e-3", "-inf", "-nan", "-", "a=1", "'=1", " =1"})
+    EXPECT_EQ(csv_field(text), text);
+}
+
 }  // namespace
 }  // namespace lobelia
