@@ -39,8 +39,11 @@ std::vector<std::string> warnings_of(const Scene& scene);
 py::array array_of(Image image);
 /// The same while `owner` lives.
 py::array view_of(const Image& image, const py::object& owner);
+/// Throws Error(kInput) if the array, or one in the list, is a numpy.ma.MaskedArray with masked values: numbers stand there
+/// all the same. `name` is for messages.
+void refuse_masked(const py::object& array, const std::string& name);
 /// A copy, because an Image owns its values. Throws Error(kInput) unless the array is (height, width, 3) floats of a size
-/// that may be compared. `name` is for messages.
+/// that may be compared, and as refuse_masked(). `name` is for messages.
 Image image_of(const py::object& array, const std::string& name);
 /// The bytes of a PNG file.
 py::bytes png_of(const DisplayImage& picture);

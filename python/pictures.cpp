@@ -19,6 +19,17 @@ py::array array_at(const Image& image, const py::object& owner) {
   return py::array_t<float>(shape_of(image), image.values().data(), owner);
 }
 
+/// Whether numpy.ma masks a value of it, or of an array in it down to that depth.
+bool has_masked(const py::handle& given, int depth) {
+  if (py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given)) {
+    for (const py::handle one : given)
+      if (depth > 0 && has_masked(one, depth - 1)) return true;
+    return false;
+  }
+  return py::isinstance<py::array>(given) &&
+         py::module_::import("numpy.ma").attr("is_masked")(given).cast<bool>();
+}
+
 py::array read(const py::object& path) {
   Image image;
   run(py::none(), [&, file = path_of(path)](const ShowProgress&) { image = read_image(file); });
@@ -56,6 +67,15 @@ py::array array_of(Image image) {
   return array_at(*kept.release(), owner);
 }
 
+void refuse_masked(const py::object& array, const std::string& name) {
+  constexpr int kMostAxes = 32;  // of numpy
+  if (has_masked(array, kMostAxes))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: it has masked values, which would count as the numbers below the "
+                            "mask; fill them first, with numpy.ma.filled",
+                            name));
+}
+
 Image image_of(const py::object& object, const std::string& name) {
   const py::array array = py::array::ensure(object);
   if (!array) PyErr_Clear();
@@ -73,6 +93,7 @@ Image image_of(const py::object& object, const std::string& name) {
                      fmt::join(array.shape(), array.shape() + array.ndim(), ", ")));
   if (array.dtype().kind() != 'f')
     fail(fmt::format("its values are {}", std::string(py::str(array.dtype()))));
+  refuse_masked(object, name);
   const py::ssize_t height = array.shape(0), width = array.shape(1);
   if (height < 1 || width < 1 || height > kMaxImageSide || width > kMaxImageSide ||
       height * width > kMaxImagePixels)
@@ -91,6 +112,7 @@ Image image_of(const py::object& object, const std::string& name) {
 void add_pictures(py::module_& module) {
   module.def("read", &read);
   module.def("write", &write);
+  module.def("refuse_masked", &refuse_masked);
   module.def("png", [](const py::object& array, double exposure) {
     return png_of(to_display(image_of(array, "image"), exposure));
   });

@@ -83,6 +83,7 @@ class Lobe:
         >>> lobe("cosine").value(np.zeros((3, 1), np.float32), np.ones(2, np.float32)).dtype
         dtype('float32')
         """
+        _refuse_masked(s=s, n=n)
         dtype = np.result_type(np.asarray(s), np.asarray(n))
         if dtype.kind not in "fiub":
             raise UsageError(f"s and n are numbers, not {dtype}")
@@ -96,10 +97,12 @@ class Lobe:
         It follows the lobe exactly for cosine, csK and spherical_gaussian, nearly for the others: divide by
         `density`.
         """
+        _refuse_masked(u=u, n=n)
         return _scalar(self._lobe.sample(u, n))
 
     def density(self, s: ArrayLike, n: ArrayLike) -> Any:
         """The density of `sample` over s. Its integral from 0 to 1 is 1. float64."""
+        _refuse_masked(s=s, n=n)
         return _scalar(self._lobe.density(s, n))
 
     def __repr__(self) -> str:
@@ -117,6 +120,11 @@ def lobe(name: str, formula: str = "") -> Lobe:
     lobelia.UsageError: ...
     """
     return Lobe(name, formula)
+
+
+def _refuse_masked(**arrays: ArrayLike) -> None:
+    for name, array in arrays.items():
+        _lobelia.refuse_masked(array, name)
 
 
 def _scalar(array: Any) -> Any:
@@ -139,6 +147,7 @@ def coefficient(
     >>> math.isclose(coefficient("phong_rdf", "cosine", 64), 65 / (2 * math.pi))
     True
     """
+    _refuse_masked(exponent=exponent)
     return _scalar(_highlight(model, lobe, normalisation).coefficient(exponent))
 
 
@@ -158,6 +167,7 @@ def albedo(
     >>> round(albedo("modified_phong", "cosine", 64), 6)
     1.0
     """
+    _refuse_masked(exponent=exponent, incidence=incidence)
     return _scalar(_highlight(model, lobe, normalisation).albedo(exponent, incidence, of_light))
 
 
@@ -176,4 +186,5 @@ def radiance(
     model's angle: between L and the mirrored eye for Phong models, between N and the half vector for Blinn's. `n_dot_v` is
     the cosine of the eye, which matters to a model with shadowing alone; the result is 0 unless it is above 0.
     """
+    _refuse_masked(exponent=exponent, n_dot_l=n_dot_l, n_dot_v=n_dot_v, s=s)
     return _scalar(_highlight(model, lobe, normalisation).radiance(exponent, n_dot_l, n_dot_v, s))

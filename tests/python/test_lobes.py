@@ -181,6 +181,20 @@ def test_density_integrates_to_1_and_samples_follow_it(name):
     assert np.allclose(counts, expected, atol=5e-3)
 
 
+def test_masked_values_are_refused():
+    masked = np.ma.masked_array([0.1, 0.2], mask=[False, True])
+    lobe = lobelia.lobe("cosine")
+    calls = (lambda: lobe.value(masked, 8.0), lambda: lobe.value(0.1, [masked + 8, masked + 9]),
+             lambda: lobe.sample(masked, 8.0), lambda: lobe.density(masked, 8.0),
+             lambda: lobelia.coefficient("phong_rdf", "cosine", masked + 8),
+             lambda: lobelia.albedo("phong_rdf", "cosine", 8.0, masked),
+             lambda: lobelia.radiance("phong_rdf", "cosine", 8.0, 0.5, masked))  # fmt: skip
+    for call in calls:
+        with pytest.raises(lobelia.InputError, match="masked values"):
+            call()
+    assert lobe.value(np.ma.masked_array([0.1, 0.2]), 8.0).shape == (2,)
+
+
 def test_u_out_of_range_is_named():
     for u in (1.0, -0.1, np.nan):
         with pytest.raises(lobelia.UsageError, match="u = .* is out of range"):

@@ -209,6 +209,20 @@ def test_a_picture_that_is_none_is_said_to_be_required(image):
         lobelia.profile(None)
 
 
+def test_masked_values_are_refused(image):
+    masked = np.ma.masked_array(image, mask=np.zeros(image.shape, bool))
+    assert lobelia.compare(masked, image).passed
+    masked[3, 4, 1] = np.ma.masked
+    for bad in (masked, list(masked), [list(row) for row in masked]):
+        for call in (lambda: lobelia.compare(bad, image), lambda: lobelia.compare(image, bad),
+                     lambda: lobelia.profile(bad), lambda: lobelia.profile(image, error=bad),
+                     lambda: lobelia.write("unwritten.exr", bad)):  # fmt: skip
+            with pytest.raises(lobelia.InputError, match="masked values"):
+                call()
+    filled = masked.filled(0)
+    assert lobelia.compare(filled, filled).passed
+
+
 def test_other_layouts_are_converted(image):
     for same in (np.asfortranarray(image), image.astype(np.float64), image.tolist(),
                  np.flip(np.ascontiguousarray(np.flip(image, 0)), 0)):  # fmt: skip
