@@ -26,7 +26,8 @@ using ShowProgress = std::function<void(double)>;
 void run(const py::object& progress, const std::function<void(const ShowProgress&)>& work);
 
 /// Adds the options that `add` declares to a command line and reads them from Python's: exponent=64 is --exponent=64,
-/// quick=True is --quick, mask=[a, b] is given twice, None is left out. Throws Error(kUsage).
+/// quick=True is --quick, mask=["a", "b"] is given twice, crop=(0, 0, 5, 5) is --crop=0,0,5,5, None is left out. Throws
+/// Error(kUsage).
 void parse_options(const py::dict& options, const std::function<void(CLI::App&)>& add);
 
 /// A path, a text that is one, or a text of XML, which begins with '<'. Reads pictures beside the file; of a text from

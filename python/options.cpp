@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -8,6 +10,12 @@
 namespace lobelia::python {
 namespace {
 
+/// A number of Python or numpy. An array has the methods of one, too.
+bool is_number(const py::handle& value) {
+  return PyNumber_Check(value.ptr()) != 0 && !py::isinstance<py::bool_>(value) &&
+         !py::isinstance<py::array>(value);
+}
+
 void add_word(const std::string& name, const py::handle& value, std::vector<std::string>& words) {
   if (value.is_none()) return;
   if (py::isinstance<py::bool_>(value)) {
@@ -15,7 +23,13 @@ void add_word(const std::string& name, const py::handle& value, std::vector<std:
     return;
   }
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-    for (const py::handle one : value) add_word(name, one, words);
+    std::vector<std::string> numbers;
+    for (const py::handle one : value)
+      if (is_number(one)) numbers.push_back(path_of(py::reinterpret_borrow<py::object>(one)));
+    if (!numbers.empty() && numbers.size() == py::len(value))
+      words.push_back(fmt::format("{}={}", name, fmt::join(numbers, ",")));
+    else
+      for (const py::handle one : value) add_word(name, one, words);
     return;
   }
   // With '=', so that a negative number is no option.

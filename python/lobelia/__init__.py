@@ -198,8 +198,8 @@ def compare(
     `{"rmse": 0.001}` or `["rmse=0.001"]`, and add to the default limits unless `default_limits` is false.
 
     Options are those of `lobelia compare`: `tolerance="6e-4,1e-8,3"`, `scene`, `mask`, `ignore`, `crop`, `exposure`,
-    `exposures`, `a_replicate`, `a_error` and more; `layer`, `all_layers` and `ignore_alpha` for two files. Masked
-    values of an array raise InputError.
+    `exposures`, `a_replicate`, `a_error` and more; `layer`, `all_layers` and `ignore_alpha` for two files. Several
+    numbers may be a tuple, as in `crop=(x, y, width, height)`. Masked values of an array raise InputError.
 
     The result is true if the verdict is pass or same. It has `metrics`, `limits`, `maps` and `why`.
 

@@ -252,6 +252,17 @@ def test_regions_masks_and_noise_are_those_of_the_command_line(image, scene):
         lobelia.compare(image, image, scene=scene)
 
 
+def test_several_numbers_of_an_option_are_a_tuple_or_a_list(image):
+    for part in ((1, 2, 5, 6), [1, 2, 5, 6], tuple(np.array([1, 2, 5, 6])), "1,2,5,6"):
+        crop = lobelia.compare(image, image, crop=part).crop
+        assert (crop.x, crop.y, crop.width, crop.height) == (1, 2, 5, 6)
+    result = lobelia.compare(image, image, exposures=(-2, 2), tolerance=(1e-3, 1e-6, 0))
+    text = lobelia.compare(image, image, exposures="-2,2", tolerance="1e-3,1e-6,0")
+    assert result.to_dict() == text.to_dict()
+    with pytest.raises(lobelia.InputError, match="--crop 0,0,999,1"):
+        lobelia.compare(image, image, crop=(0, 0, 999, 1))
+
+
 def test_noise_makes_the_verdict_same_or_different(scene, tmp_path):
     wide = {"scene": scene, "width": 48, "height": 48, "samples": 4}
     for seed in range(4):
