@@ -5,6 +5,7 @@
 
 #include "cli/compare_arguments.hpp"
 #include "cli/output_files.hpp"
+#include "core/files.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::cli {

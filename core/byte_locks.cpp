@@ -13,6 +13,7 @@
 #include <random>
 #include <set>
 
+#include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/text.hpp"
 
@@ -60,11 +61,6 @@ std::string without_escapes(std::string_view text) {
     }
   }
   return plain;
-}
-
-bool is_below(std::string_view path, std::string_view place) {
-  return place == "/" || path == place ||
-         (path.starts_with(place) && path.size() > place.size() && path[place.size()] == '/');
 }
 
 /// Reads "36 35 98:0 /mnt1 /mnt2 rw,noatime master:1 - ext3 /dev/root rw,errors=continue". False for other devices than

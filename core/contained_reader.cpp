@@ -250,11 +250,11 @@ std::string decoder_problem(const ReaderVerdict& verdict) {
   return "";
 }
 
-Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
+Outcome ask(const PictureFile& file, const std::string& layer, bool names_only,
             const PictureLimit& limit) {
   static Pool pool;
   throw_if_interrupted();
-  const PictureFile file(path);
+  const fs::path& path = file.path();
   ReadingRequest request{.names_only = names_only,
                          .on_one_thread = g_on_one_thread || usual_threads() == 1,
                          .base_only = g_base_only,
@@ -315,10 +315,16 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
 }  // namespace
 
 Picture read_picture(const fs::path& path, const std::string& layer, const PictureLimit& limit) {
-  return ask(path, layer, false, limit).picture;
+  return read_picture(PictureFile(path), layer, limit);
 }
 
-std::vector<std::string> layer_names(const fs::path& path) { return ask(path, "", true, {}).names; }
+Picture read_picture(const PictureFile& file, const std::string& layer, const PictureLimit& limit) {
+  return ask(file, layer, false, limit).picture;
+}
+
+std::vector<std::string> layer_names(const fs::path& path) {
+  return ask(PictureFile(path), "", true, {}).names;
+}
 
 void decode_contained_on_one_thread() { g_on_one_thread = true; }
 

@@ -27,6 +27,12 @@ namespace lobelia {
 Picture read_picture(const std::filesystem::path& path, const std::string& layer,
                      const PictureLimit& limit = {});
 
+class PictureFile;
+
+/// The same of a file that is open.
+Picture read_picture(const PictureFile& file, const std::string& layer,
+                     const PictureLimit& limit = {});
+
 /// All layers of the file, first the picture ("") if it has one. Errors as read_picture().
 std::vector<std::string> layer_names(const std::filesystem::path& path);
 

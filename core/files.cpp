@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -55,21 +56,54 @@ bool is_at(const fs::path& path, int fd) {
 
 }  // namespace
 
-std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+InputFile::InputFile(const fs::path& path)
+    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
   struct stat status {};
-  if (!file || ::fstat(file.get(), &status) != 0)
+  if (!file_ || ::fstat(file_.get(), &status) != 0)
     throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
   if (!S_ISREG(status.st_mode))
     throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
-  if (std::uint64_t(status.st_size) > max_bytes)
-    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read", path.string(),
-                                              std::uint64_t(status.st_size), max_bytes));
-  std::string text(std::size_t(status.st_size), '\0');
-  const std::size_t size = read_at(file.get(), text.data(), text.size());
+  size_ = std::uint64_t(status.st_size);
+}
+
+fs::path InputFile::real_path() const {
+  std::error_code error;
+  fs::path real = fs::canonical(path_, error);
+  if (error || !is_at(real, file_.get()))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: it was replaced while it was opened", path_.string()));
+  return real;
+}
+
+bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+std::size_t read_in_pieces(int file, void* target, std::size_t size, std::size_t offset) {
+  std::size_t done = 0;
+  while (done < size) {
+    if (done > 0) throw_if_interrupted();
+    const std::size_t piece = std::min(kBytesBetweenLooks, size - done),
+                      got = read_at(file, static_cast<char*>(target) + done, piece, offset + done);
+    done += got;
+    if (got < piece) break;
+  }
+  return done;
+}
+
+std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
+  return read_file(InputFile(path), max_bytes);
+}
+
+std::string read_file(const InputFile& file, std::uint64_t max_bytes) {
+  if (file.size() > max_bytes)
+    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read",
+                                              file.path().string(), file.size(), max_bytes));
+  std::string text(std::size_t(file.size()), '\0');
+  const std::size_t size = read_in_pieces(file.descriptor(), text.data(), text.size());
   if (size < text.size() && errno != 0)
     throw Error(ExitCode::kInput,
-                fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+                fmt::format("{}: cannot read: {}", file.path().string(), std::strerror(errno)));
   text.resize(size);
   return text;
 }

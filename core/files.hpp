@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/descriptor.hpp"
@@ -14,8 +15,37 @@
 
 namespace lobelia {
 
-/// The whole file. Throws Error(kInput) if it is missing, not a regular file or over `max_bytes`.
+/// A regular file, open for reading.
+class InputFile {
+ public:
+  /// Does not wait for the writer of a pipe. Throws Error(kInput) if it is missing, cannot be read or is no regular file.
+  explicit InputFile(const std::filesystem::path& path);
+  const std::filesystem::path& path() const { return path_; }  ///< as it was given
+  int descriptor() const { return file_.get(); }
+  std::uint64_t size() const { return size_; }  ///< in bytes, when it was opened
+  /// Where the open file lies, absolute and without links. Throws Error(kInput) if path() leads to another file by now.
+  std::filesystem::path real_path() const;
+  Descriptor release() { return std::move(file_); }
+
+ private:
+  std::filesystem::path path_;
+  Descriptor file_;
+  std::uint64_t size_ = 0;
+};
+
+/// Whether a path is the folder or lies in it; both are absolute and without links.
+bool is_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// The whole file. Throws Error(kInput) if it is missing, not a regular file or over `max_bytes`, and Error(kInterrupted)
+/// as read_in_pieces().
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
+std::string read_file(const InputFile& file, std::uint64_t max_bytes);
+
+/// What is read or hashed between two looks for an interruption. Smaller files are read to the end.
+inline constexpr std::size_t kBytesBetweenLooks = std::size_t{16} << 20;
+
+/// As read_at(), for files of others, which may be large. Throws Error(kInterrupted) if interrupted().
+std::size_t read_in_pieces(int file, void* target, std::size_t size, std::size_t offset = 0);
 
 /// What a write replaces where its path is a symbolic link.
 enum class AtLink {

@@ -60,7 +60,8 @@ std::int64_t now() {  // clock_gettime may be called in a signal handler
 constexpr std::chrono::milliseconds kGrace{250};
 std::atomic<bool> g_ends_soon{false};
 std::atomic<bool> g_too_late{false};
-sem_t g_signalled;  ///< posted at the first signal
+sem_t g_signalled;                          ///< posted at the first signal
+thread_local int uninterrupted_scopes = 0;  ///< Uninterrupted objects of the thread
 
 /// Never destroyed, because the watcher may run while the process exits.
 struct Ending {
@@ -173,8 +174,13 @@ std::string_view interrupt_reason() {
 }
 
 void throw_if_interrupted() {
-  if (interrupted()) throw Error(ExitCode::kInterrupted, std::string(interrupt_reason()));
+  if (interrupted() && uninterrupted_scopes == 0)
+    throw Error(ExitCode::kInterrupted, std::string(interrupt_reason()));
 }
+
+Uninterrupted::Uninterrupted() { ++uninterrupted_scopes; }
+
+Uninterrupted::~Uninterrupted() { --uninterrupted_scopes; }
 
 void interrupts_come_too_late() { g_too_late = true; }
 

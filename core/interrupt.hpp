@@ -32,8 +32,18 @@ void end_after(double seconds);
 ExitCode interrupt_exit_code();
 /// "interrupted", or that the time limit is over.
 std::string_view interrupt_reason();
-/// Throws Error(kInterrupted) if interrupted().
+/// Throws Error(kInterrupted) if interrupted(), unless the thread has an Uninterrupted.
 void throw_if_interrupted();
+
+/// While this lives, throw_if_interrupted() throws nothing on its thread: for what is to be completed after an
+/// interruption too.
+class Uninterrupted {
+ public:
+  Uninterrupted();
+  ~Uninterrupted();
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+};
 
 /// Says that the results are written: they decide the exit code, even if a signal comes now.
 void interrupts_come_too_late();

@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/no_resources.hpp"
 #include "core/text.hpp"
@@ -200,10 +201,18 @@ void unreadable_picture(const std::filesystem::path& path, std::string_view why)
               fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
 }
 
-PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
-  // O_NONBLOCK: opening a pipe would wait for its writer.
-  file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (descriptor() < 0) cannot_open(path, errno);
+PictureFile::PictureFile(const std::filesystem::path& path)
+    : PictureFile(path, [&] {
+        // O_NONBLOCK: opening a pipe would wait for its writer.
+        Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+        if (!file) cannot_open(path, errno);
+        return file;
+      }()) {}
+
+PictureFile::PictureFile(InputFile file) : PictureFile(file.path(), file.release()) {}
+
+PictureFile::PictureFile(const std::filesystem::path& path, Descriptor file)
+    : path_(path), file_(std::move(file)) {
   struct stat status {};
   std::string problem;
   if (::fstat(descriptor(), &status) != 0)
@@ -221,7 +230,7 @@ PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
 
 std::string PictureFile::read(std::uint64_t offset, std::size_t size) const {
   std::string bytes(size, '\0');
-  if (read_at(descriptor(), bytes.data(), size, offset) < size)
+  if (read_in_pieces(descriptor(), bytes.data(), size, offset) < size)
     unreadable_picture(path_,
                        errno != 0 ? std::strerror(errno) : "it became shorter while it was read");
   return bytes;

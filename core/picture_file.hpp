@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "core/descriptor.hpp"
+#include "core/files.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
 
@@ -60,24 +62,27 @@ struct PngColour {
 PngColour png_colour(std::string_view bytes);
 
 /// Larger files are refused. With --any-format files are copied into memory.
-inline constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{8} << 30;
+inline constexpr std::uint64_t kMaxPictureBytes = kMostHashedBytes;
 inline constexpr std::uint64_t kMaxAnyFormatBytes = std::uint64_t{1} << 30;
 
 class PictureFile {
  public:
   /// Throws Error(kInput): missing, not a regular file, empty, over kMaxPictureBytes.
   explicit PictureFile(const std::filesystem::path& path);
+  explicit PictureFile(InputFile file);
 
+  const std::filesystem::path& path() const { return path_; }
   int descriptor() const { return file_.get(); }
   std::uint64_t size() const { return size_; }
   /// As picture_format(). Throws Error(kInput), naming the formats that are read, if it is none of them.
   std::string_view known_format() const;
-  /// The whole file. Throws Error(kInput) if it became shorter.
+  /// The whole file. Throws Error(kInput) if it became shorter, and Error(kInterrupted) as read_in_pieces().
   std::string read_all() const;
   /// A copy in memory, outside of every file system. Throws Error(kInput) if the file is over `max_bytes`.
   Descriptor copy_in_memory(std::uint64_t max_bytes) const;
 
  private:
+  PictureFile(const std::filesystem::path& path, Descriptor file);
   std::string read(std::uint64_t offset, std::size_t size) const;
   std::filesystem::path path_;
   Descriptor file_;

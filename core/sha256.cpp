@@ -1,16 +1,16 @@
 #include "core/sha256.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nettle/sha2.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <vector>
 
-#include "core/descriptor.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/no_resources.hpp"
 
 namespace lobelia {
@@ -43,21 +43,31 @@ Sha256Digest sha256(std::string_view bytes) {
 }
 
 Sha256Digest sha256_of_file(const std::filesystem::path& path) {
-  const auto fail = [&](int error) {
-    throw failure_of(path.string() + ": cannot read", error, ExitCode::kInput);
+  return sha256_of_file(InputFile(path));
+}
+
+Sha256Digest sha256_of_file(const InputFile& file) {
+  const std::string path = file.path().string();
+  const auto require_bound = [&](std::uint64_t bytes) {
+    if (bytes > kMostHashedBytes)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: {} bytes; at most {} are read", path, bytes, kMostHashedBytes));
   };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat status {};
-  if (!file || ::fstat(file.get(), &status) != 0) fail(errno);
-  if (!S_ISREG(status.st_mode))
-    throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
+  require_bound(file.size());
   Hasher one;
-  std::vector<char> piece(std::min(kPieceBytes, std::size_t(status.st_size) + 1));
+  std::vector<char> piece(std::min(kPieceBytes, std::size_t(file.size()) + 1));
+  std::uint64_t done = 0, next_look = kBytesBetweenLooks;
   while (true) {
-    const ssize_t n = retried([&] { return ::read(file.get(), piece.data(), piece.size()); });
-    if (n < 0) fail(errno);
+    const ssize_t n = retried(
+        [&] { return ::pread(file.descriptor(), piece.data(), piece.size(), off_t(done)); });
+    if (n < 0) throw failure_of(path + ": cannot read", errno, ExitCode::kInput);
     if (n == 0) return one.finish();
     one.take(piece.data(), std::size_t(n));
+    done += std::uint64_t(n);
+    require_bound(done);  // it may grow meanwhile
+    if (done < next_look) continue;
+    throw_if_interrupted();
+    next_look = done + kBytesBetweenLooks;
   }
 }
 

@@ -13,8 +13,15 @@ using Sha256Digest = std::array<std::uint8_t, 32>;
 
 Sha256Digest sha256(std::string_view bytes);
 
-/// Hashes the whole file. Throws Error(kInput) if it cannot be read.
+class InputFile;
+
+/// Larger files are not hashed: it is the largest that is read as a picture.
+inline constexpr std::uint64_t kMostHashedBytes = std::uint64_t{8} << 30;
+
+/// Hashes the whole file. Throws Error(kInput) if it cannot be read or has over kMostHashedBytes, and Error(kInterrupted)
+/// as read_in_pieces().
 Sha256Digest sha256_of_file(const std::filesystem::path& path);
+Sha256Digest sha256_of_file(const InputFile& file);
 
 /// 64 lower-case hexadecimal digits, and back. from_hex() returns false for any other text.
 std::string hex(const Sha256Digest& digest);

@@ -19,7 +19,6 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 constexpr auto kCross = HeldDirectory::Border::kCross;  // a larger disk may be mounted there
 
 /// The files that a farm of any version may have put into a cell for an engine alone.
@@ -63,7 +62,7 @@ void link_or_copy(const fs::path& cached, const HeldDirectory& directory, const 
   if (::linkat(AT_FDCWD, cached.c_str(), directory.fd(), part.c_str(), 0) == 0) return;
   if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES) fail(target, errno);
   const fs::path path = directory.path() / part;
-  write_file(path, read_file(cached, kMaxFileBytes));
+  write_file(path, read_file(cached, kMostHashedBytes));
   struct stat status {};
   if (::stat(cached.c_str(), &status) != 0) {
     const int number = errno;

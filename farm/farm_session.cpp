@@ -241,6 +241,7 @@ void FarmSession::finish_cell(std::size_t cell, GroupFlush& flush) {
 }
 
 void FarmSession::show_what_is_there() {
+  const Uninterrupted to_the_end;
   const JobStateFilter what_is_there{.wanted = [](JobIndex) { return false; },
                                      .failures = JobStateFilter::Failures::kOfOthersCount,
                                      .look = ResultCache::Look::kName};

@@ -70,8 +70,9 @@ fs::path on_shelf(const char* part, const ResultKey& key, const char* ending = "
   return fs::path(part) / text.substr(0, 2) / (text + ending);
 }
 
-/// Throws Error(kOutput) if the draft was removed.
+/// Throws Error(kOutput) if the draft was removed. What is made is kept, though the run is interrupted.
 std::string hash_of_output(const fs::path& file) {
+  const Uninterrupted to_the_end;
   try {
     return hex(sha256_of_file(file));
   } catch (const Error& error) {

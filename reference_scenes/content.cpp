@@ -35,13 +35,11 @@ std::string identity_of(const struct stat& status) {
                      status.st_ctim.tv_nsec);
 }
 
-struct stat status_of(const fs::path& path) {
+struct stat status_of(const InputFile& file) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
+  if (::fstat(file.descriptor(), &status) != 0)
     throw Error(ExitCode::kInput,
-                fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
-  if (!S_ISREG(status.st_mode))
-    throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
+                fmt::format("{}: cannot read: {}", file.path().string(), std::strerror(errno)));
   return status;
 }
 
@@ -89,8 +87,11 @@ FileHashes::FileHashes(fs::path file) : file_(std::move(file)) {
   }
 }
 
-records::ContentFile FileHashes::hash(const fs::path& path) {
-  const struct stat before = status_of(path);
+records::ContentFile FileHashes::hash(const fs::path& path) { return hash(InputFile(path)); }
+
+records::ContentFile FileHashes::hash(const InputFile& file) {
+  const fs::path& path = file.path();
+  const struct stat before = status_of(file);
   const std::string identity = identity_of(before);
   {
     const std::scoped_lock lock(mutex_);
@@ -99,8 +100,8 @@ records::ContentFile FileHashes::hash(const fs::path& path) {
       return {path.string(), std::uint64_t(before.st_size), known->second.sha256};
   }
   records::ContentFile hashed{path.string(), std::uint64_t(before.st_size),
-                              hex(sha256_of_file(path))};
-  const struct stat after = status_of(path);
+                              hex(sha256_of_file(file))};
+  const struct stat after = status_of(file);
   const bool settled = identity_of(after) == identity &&
                        std::time(nullptr) - std::max(after.st_mtim.tv_sec, after.st_ctim.tv_sec) >=
                            kSettledAfterSeconds;
@@ -134,7 +135,8 @@ void ContentReader::add(std::string_view part, std::string_view name, const fs::
   records::ContentFile hashed{file.string(), 0, kUnreadable};
   try {
     hashed = hashes_.hash(file);
-  } catch (const Error&) {  // such as one that may be executed but not read
+  } catch (const Error& error) {  // such as one that may be executed but not read
+    if (error.code() != ExitCode::kInput) throw;
   }
   parts_.push_back(fmt::format("{}:{}:{}:{}\n", part, name.size(), name, hashed.sha256));
   files_.push_back(std::move(hashed));

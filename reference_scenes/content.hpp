@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/files.hpp"
 #include "records/result.hpp"
 
 namespace lobelia {
@@ -24,8 +25,9 @@ class FileHashes {
   /// if neither folder exists.
   static FileHashes& of_user();
 
-  /// Throws Error(kInput) if the file cannot be read or is not a regular file.
+  /// Throws as sha256_of_file().
   records::ContentFile hash(const std::filesystem::path& path);
+  records::ContentFile hash(const InputFile& file);
   /// Writes new hashes and drops those of deleted files. If it cannot write, the next run reads the files again.
   void save();
   std::size_t read_count() const { return read_count_; }  ///< files hashed by reading them

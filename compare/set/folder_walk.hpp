@@ -11,6 +11,7 @@
 
 #include "compare/set/pairing.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {

@@ -400,10 +400,6 @@ bool all_are(const std::vector<std::string>& given, bool (*is_such)(const std::s
 
 }  // namespace
 
-bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::ranges::mismatch(folder, path).in1 == folder.end();
-}
-
 bool Pairing::is_reference(std::size_t set) const {
   return set == kReferenceSet || set + also_accepted >= sets.size();
 }

@@ -47,9 +47,6 @@ struct PairingChoice {
   std::size_t most_files = 1'000'000;
 };
 
-/// Whether an absolute, canonical path is the folder or lies in it.
-bool is_below(const std::filesystem::path& path, const std::filesystem::path& folder);
-
 /// Whether the file's name stands for a sequence: it holds %04d, %d or ####, once.
 bool is_sequence(const std::string& path);
 

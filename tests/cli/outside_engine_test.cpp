@@ -237,6 +237,15 @@ TEST_F(OutsideEngines, OfPicturesShowsThoseThatAreThereAndMissesTheOthers) {
   EXPECT_EQ(cell("n32")["status"], "differs");
 }
 
+TEST_F(OutsideEngines, OfPicturesTakesAFileOfAnySizeForAFailureAtOnce) {
+  write_file(path("huge.exr"), "");
+  fs::resize_file(path("huge.exr"), std::uintmax_t{1} << 40);
+  grid("<pictures name=\"studio\" files=\"huge.exr\"/>");
+  EXPECT_EQ(farm({}).exit_code, 4);
+  EXPECT_THAT(cell()["problems"][0]["message"].get<std::string>(),
+              HasSubstr("the file has 1099511627776 bytes; at most 8589934592 are read"));
+}
+
 TEST_F(OutsideEngines, MayBeTheReferenceWithoutOurPicture) {
   script("one.sh", "");
   script("two.sh", "");

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <random>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
@@ -77,6 +78,39 @@ TEST(WriteFile, ReplacesALinkThatStandsInPlaceOfANameOfOurs) {
   }
   EXPECT_EQ(read_file(other.path() / "real", 100), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(other.path()), {}), 1);
+}
+
+TEST(InputFile, KnowsWhereItLiesWhateverPathLedThere) {
+  const TemporaryDirectory directory;
+  const fs::path here = fs::canonical(directory.path());
+  fs::create_directories(here / "a/b");
+  write_file(here / "file", "x");
+  write_file(here / "a/file", "y");
+  fs::create_directory_symlink("a/b", here / "link");
+  // By its text the path is that of the other file.
+  EXPECT_EQ(InputFile(here / "link/../file").real_path(), here / "a/file");
+  const InputFile open(here / "link/../file");
+  write_file(here / "new", "z");
+  fs::rename(here / "new", here / "a/file");
+  EXPECT_EQ(code_of([&] { std::ignore = open.real_path(); }), ExitCode::kInput);
+  EXPECT_EQ(read_file(open, 10), "y");
+}
+
+TEST(ReadFile, EndsAtAnInterruptionOnlyIfTheFileIsLarge) {
+  const TemporaryDirectory directory;
+  const fs::path small = directory.path() / "small", large = directory.path() / "large";
+  for (const fs::path& file : {small, large}) write_file(file, "");
+  fs::resize_file(small, kBytesBetweenLooks);
+  fs::resize_file(large, kBytesBetweenLooks + 1);
+  const auto read = [](const fs::path& file) { read_file(file, 2 * kBytesBetweenLooks); };
+  request_interrupt();
+  EXPECT_EQ(code_of([&] { read(small); }), ExitCode::kSuccess);
+  EXPECT_EQ(code_of([&] { read(large); }), ExitCode::kInterrupted);
+  {
+    const Uninterrupted to_the_end;
+    EXPECT_EQ(code_of([&] { read(large); }), ExitCode::kSuccess);
+  }
+  forget_interrupt();
 }
 
 TEST(RequireWritable, LeavesNothingAndAsksForADirectoryThatIsThereAndMayBeWritten) {

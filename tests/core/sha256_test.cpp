@@ -1,5 +1,6 @@
 #include "core/sha256.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -23,6 +24,39 @@ TEST(Sha256, OfAFileIsThatOfItsBytes) {
   EXPECT_EQ(sha256_of_file(directory.path() / "file"), sha256(text));
   EXPECT_THROW(sha256_of_file(directory.path() / "none"), Error);
   EXPECT_THROW(sha256_of_file(directory.path()), Error);
+}
+
+TEST(Sha256, AFileOverTheLimitIsRefusedBeforeAnyByteIsRead) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "huge";
+  write_file(file, "");
+  std::filesystem::resize_file(file, kMostHashedBytes + 1);
+  try {
+    sha256_of_file(file);
+    ADD_FAILURE() << "it was hashed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_THAT(error.what(), testing::HasSubstr("8589934593 bytes; at most 8589934592 are read"));
+  }
+}
+
+TEST(Sha256, TheHashOfALargeFileEndsAtAnInterruption) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "large";
+  write_file(file, "");
+  std::filesystem::resize_file(file, kBytesBetweenLooks + 1);
+  request_interrupt();
+  try {
+    sha256_of_file(file);
+    ADD_FAILURE() << "it was hashed to its end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInterrupted);
+  }
+  {
+    const Uninterrupted to_the_end;
+    EXPECT_EQ(sha256_of_file(file), sha256(std::string(kBytesBetweenLooks + 1, '\0')));
+  }
+  forget_interrupt();
 }
 
 TEST(Sha256, ReadsBackItsOwnHexadecimalAndNothingElse) {
