@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -22,16 +21,23 @@ struct EnginesArguments {
   bool models = false, allow_commands = false;
 };
 
-/// The engines that grids and engine files describe.
-std::vector<OutsideEngine> outside_engines(const EnginesArguments& options) {
-  std::vector<OutsideEngine> found;
-  for (const std::string& file : options.files)
-    if (file.ends_with(".engine.xml"))
-      found.push_back(read_engine_file(file));
-    else
-      std::ranges::copy(read_grid(file).outside, std::back_inserter(found));
-  require_commands_allowed(found, options.allow_commands);
-  return found;
+/// Adds the engines that grids and engine files describe.
+void add_outside_engines(const EnginesArguments& options,
+                         std::vector<std::unique_ptr<Engine>>& engines) {
+  const Leave of_user = Leave::of_user(options.allow_commands);
+  const auto add = [&](std::span<const OutsideEngine> described, const Leave& leave) {
+    require_leave_to_start(described, leave);
+    for (const OutsideEngine& one : described) engines.push_back(make_outside_engine(one, leave));
+  };
+  for (const std::string& file : options.files) {
+    if (file.ends_with(".engine.xml")) {
+      const OutsideEngine engine = read_engine_file(file);
+      add({&engine, 1}, of_user);
+    } else {
+      const Grid grid = read_grid(file);
+      add(grid.outside, of_user.said_by(grid.directory));
+    }
+  }
 }
 
 records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus& status,
@@ -111,8 +117,7 @@ ExitCode run_engines(const EnginesArguments& options) {
   std::vector<std::unique_ptr<Engine>> engines;
   for (const EngineInfo& info : engine_infos())
     engines.push_back(make_engine(info.name, options.programs.of(info.name)));
-  for (const OutsideEngine& outside : outside_engines(options))
-    engines.push_back(make_outside_engine(outside));
+  add_outside_engines(options, engines);
   if (options.models) {
     print_models(engines);
     return ExitCode::kSuccess;

@@ -8,7 +8,6 @@
 #include "core/interrupt.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
-#include "reference_scenes/engines/outside/outside.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -31,6 +30,7 @@ FarmOptions farm_options(const FarmArguments& options) {
   farm.disk = parse_size(options.disk);
   farm.failed_directory = std::filesystem::absolute(options.directory) / FailedJobs::kName;
   farm.filter = JobFilter(options.filter);
+  farm.leave = Leave::of_user(options.allow_commands);
   farm.command = command_line();
   return farm;
 }
@@ -117,7 +117,6 @@ ExitCode run_on_cluster(const Grid& grid, const FarmArguments& options) {
 
 ExitCode run_farm_command(const FarmArguments& options) {
   const Grid grid = read_grid(options.grid);
-  require_commands_allowed(grid.outside, options.allow_commands);
   if (options.dry_run) {
     dry_run(grid, options);
     return ExitCode::kSuccess;
@@ -188,8 +187,9 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
                  "An engine that is not installed is an error");
   group.add_flag(
       "--allow-commands", options->allow_commands,
-      "Start the programs that the grid names (docs/own_engine.md); without it only if the "
-      "grid lies in a folder that $LOBELIA_ALLOW_COMMANDS_IN names");
+      "Start the programs that the grid names, and read its pictures wherever they are "
+      "(docs/own_engine.md); without it only if the grid and its engine files lie in folders "
+      "that $LOBELIA_ALLOW_COMMANDS_IN names");
   options->programs.add_to(*command);
   options->slurm.add_to(*command);
   add_farm_upkeep(*command, exit_code);

@@ -110,8 +110,9 @@ CLI::App* add_hidden(CLI::App& farm, const std::string& name, const std::string&
   return command;
 }
 
-void exec_chunk(const std::filesystem::path& run, std::size_t number, ExitCode& exit_code) {
-  const ChunkSummary done = exec_slurm_chunk(run, number);
+void exec_chunk(const std::filesystem::path& run, std::size_t number, const Leave& leave,
+                ExitCode& exit_code) {
+  const ChunkSummary done = exec_slurm_chunk(run, number, leave);
   fmt::print("chunk {}: {} jobs, {} done, {} made here, {} failed; {:.1f} s\n", number, done.jobs,
              done.done, done.work.made, done.failed, done.work.wall_seconds);
   for (const auto& [engine, why] : done.left)
@@ -121,8 +122,8 @@ void exec_chunk(const std::filesystem::path& run, std::size_t number, ExitCode& 
   if (done.failed > 0) exit_code = ExitCode::kOutput;
 }
 
-void finish_run(const std::filesystem::path& run) {
-  const SlurmFarmSummary end = finish_slurm_run(run);
+void finish_run(const std::filesystem::path& run, const Leave& leave) {
+  const SlurmFarmSummary end = finish_slurm_run(run, leave);
   const FarmSummary& summary = end.farm;
   fmt::print("{} cells: {} failed, {} differ, {} pass, {} not done\n", summary.cells,
              summary.failed, summary.differs, summary.pass, summary.missing);
@@ -135,13 +136,18 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
   add_doctor(farm, exit_code);
   auto path = std::make_shared<std::filesystem::path>();
   auto number = std::make_shared<std::size_t>(0);
+  auto allowed = std::make_shared<bool>(false);
   auto* chunk = add_hidden(farm, "exec-chunk", "What an element of a cluster's job does", "RUN",
                            *path, "The run's directory");
   chunk->add_option("NUMBER", *number, "Of the chunk")->required();
-  chunk->callback([path, number, &exit_code] { exec_chunk(*path, *number, exit_code); });
-  add_hidden(farm, "finish", "What the last element of a run does", "RUN", *path,
-             "The run's directory")
-      ->callback([path] { finish_run(*path); });
+  chunk->callback([path, number, allowed, &exit_code] {
+    exec_chunk(*path, *number, Leave::of_user(*allowed), exit_code);
+  });
+  auto* finish = add_hidden(farm, "finish", "What the last element of a run does", "RUN", *path,
+                            "The run's directory");
+  finish->callback([path, allowed] { finish_run(*path, Leave::of_user(*allowed)); });
+  for (CLI::App* const command : {chunk, finish})
+    command->add_flag("--allow-commands", *allowed, "Do what the run's records say");
   add_hidden(farm, "doctor-on-node", "What the doctor's element does", "DIR", *path,
              "Made by the doctor")
       ->callback([path] { doctor_on_node(*path); });

@@ -16,7 +16,7 @@ namespace {
 struct UpkeepArguments {
   std::string directory, cell, job, max_size, json;
   EnginePrograms programs;
-  bool attach = false, remove = false, all = false, dry_run = false;
+  bool attach = false, allow_commands = false, remove = false, all = false, dry_run = false;
 };
 
 struct Upkeep {
@@ -68,13 +68,19 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
       add_upkeep(farm, "status", "What has become of a farm's cells so far");
   OptionGroup group(*command);
   add_json(group, options->json, "farm-status");
-  command->add_flag("--attach", options->attach,
-                    "Go back to a run on a cluster and follow it to its end");
+  auto* attach = command->add_flag("--attach", options->attach,
+                                   "Go back to a run on a cluster and follow it to its end");
+  command
+      ->add_flag("--allow-commands", options->allow_commands,
+                 "With --attach: start the programs that the run names, and write into its "
+                 "cache and its gallery wherever they are")
+      ->needs(attach);
   command->callback([options = options, &exit_code] {
     if (options->attach) {
       SlurmRunOptions slurm = SlurmSettings().run_options();
       const auto followed = follow(slurm, [&](const SlurmRunOptions& with_progress) {
-        return attach_to_slurm_run(options->directory, with_progress);
+        return attach_to_slurm_run(options->directory, with_progress,
+                                   Leave::of_user(options->allow_commands));
       });
       exit_code = publish_if_wanted(options->directory, followed.gallery);
     }

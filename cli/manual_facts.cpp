@@ -36,8 +36,8 @@ const std::vector<Fact> kExitCodes = {
 const std::vector<Fact> kEnvironment = {
     {"LOBELIA_CACHE", "where farms keep results without --cache; otherwise it is DIR/cache"},
     {"LOBELIA_ALLOW_COMMANDS_IN",
-     "folders, separated by colons; a grid in one of them may start programs without "
-     "--allow-commands"},
+     "folders, separated by colons; what a grid, its engine files and a run's records in them say is done "
+     "without --allow-commands"},
     {"LOBELIA_NO_NAMESPACE", "if set, engines run without a PID namespace, for a debugger"},
     {"OCIO", "OpenColorIO configuration of lobelia compare without --ocio"},
     {"NO_COLOR", "if set and not empty, verdicts have no colours, unless compare --color always"},

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 
 #include "core/files.hpp"
@@ -22,13 +23,30 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The engines of the plan. Whether they are here shows once they are asked for a picture.
-std::vector<FarmEngine> planned_engines(const records::FarmChunk& chunk) {
+std::vector<FarmEngine> planned_engines(const records::FarmChunk& chunk, const Leave& leave) {
   std::vector<FarmEngine> engines;
   for (const auto& planned : chunk.engines)
-    engines.push_back({planned.outside ? make_outside_engine(*planned.outside)
+    engines.push_back({planned.outside ? make_outside_engine(*planned.outside, leave)
                                        : make_engine(planned.name, planned.program),
                        planned.name, planned.version, planned.content});
   return engines;
+}
+
+/// Lists what a chunk asks for, for refuse_without_leave().
+std::vector<std::string> wishes_of_chunk(const records::FarmChunk& chunk) {
+  std::vector<std::string> wishes{
+      fmt::format("write into the cache '{}'", printable(chunk.cache, 1000))};
+  if (chunk.failed)
+    wishes.push_back(fmt::format("write into '{}'", printable(*chunk.failed, 1000)));
+  for (const auto& engine : chunk.engines) {
+    if (!engine.program.empty()) wishes.push_back(start_of(engine.name, engine.program));
+    if (!engine.outside) continue;
+    std::ranges::move(starts_of(*engine.outside), std::back_inserter(wishes));
+    if (!engine.outside->files.empty())
+      wishes.push_back(
+          fmt::format("read pictures in '{}'", printable(engine.outside->directory, 1000)));
+  }
+  return wishes;
 }
 
 struct ChunkCells {
@@ -134,8 +152,12 @@ records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
   return record;
 }
 
-ChunkSummary exec_chunk(const fs::path& file, int threads) {
-  const auto chunk = records::read_record<records::FarmChunk>(file);
+ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave) {
+  const InputFile opened(file);
+  const auto chunk = records::parse_record<records::FarmChunk>(
+      read_file(opened, records::kMaxRecordBytes), file.string());
+  const Leave trusted = leave.said_by(opened.real_path());
+  if (!trusted) refuse_without_leave(wishes_of_chunk(chunk));
   ChunkSummary summary;
   for (auto& why : identity_differences(OwnIdentity::of_record(chunk), own_identity()))
     summary.left.push_back({"", std::move(why)});
@@ -151,7 +173,7 @@ ChunkSummary exec_chunk(const fs::path& file, int threads) {
   options.failed_directory = chunk.failed.value_or("");
   if (chunk.failed && !options.failed_directory.is_absolute())
     throw Error(ExitCode::kInput, fmt::format("{}: 'failed' is no absolute path", file.string()));
-  const std::vector<FarmEngine> engines = planned_engines(chunk);
+  const std::vector<FarmEngine> engines = planned_engines(chunk, trusted);
   for (const auto& planned : chunk.engines)
     if (!planned.program.empty()) options.programs[planned.name] = planned.program;
   ChunkCells cells = read_cells(chunk, file.filename().string());
@@ -170,7 +192,7 @@ ChunkSummary exec_chunk(const fs::path& file, int threads) {
     for (std::size_t cell = 0; cell < graph.cell_count(); ++cell)
       if (is_of_chunk(graph.reference(cell, e))) pictures.push_back(graph.reference(cell, e));
     if (pictures.empty()) continue;
-    std::string why = engine_difference(engines[e], options.programs);
+    std::string why = engine_difference(engines[e], options.programs, trusted);
     if (why.empty()) continue;
     summary.left.push_back({engines[e].name, std::move(why)});
     for (const JobIndex job : pictures) cells.jobs[graph.cell_of(job)].erase(graph.name(job));

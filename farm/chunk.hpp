@@ -22,8 +22,9 @@ struct ChunkSummary {
   std::vector<LeftUndone> left;
 };
 
-/// Does the jobs of the file that have their inputs. Throws Error: kInput (no such chunk), kOutput, kInterrupted.
-ChunkSummary exec_chunk(const std::filesystem::path& file, int threads);
+/// Does the jobs of the file that have their inputs. A chunk says what is started, what is read and where it is written, so
+/// it needs leave. Throws Error: kUsage (no leave), kInput (no such chunk), kOutput, kInterrupted.
+ChunkSummary exec_chunk(const std::filesystem::path& file, int threads, const Leave& leave);
 
 /// Its `node` is a valid node name.
 struct ChunkReport : records::FarmChunkReport {

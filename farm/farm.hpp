@@ -14,6 +14,7 @@ struct FarmOptions : JobRunOptions {
   bool again = false;                ///< makes all of these again
   bool require_engines = false;      ///< an absent engine is an error
   bool engines_as_recorded = false;  ///< makes nothing, and takes the engines from farm.json
+  Leave leave;                       ///< the user's, for what the grid says
   std::vector<std::string> command;  ///< for the record
   std::filesystem::path
       gallery;  ///< the caller, or a cluster's last element, publishes there; empty: nowhere
@@ -34,7 +35,8 @@ struct FarmSummary : records::StatusCounts {
 };
 
 /// Throws Error: kInterrupted on Ctrl-C, after writing farm.json; kOutput if the directory or the cache cannot be written;
-/// kEngine, before any change, if an engine is broken; kInput for more than kMaxFarmCells.
+/// before any change kUsage without leave for what the grid starts or reads, kEngine if an engine is broken, and kInput for
+/// more than kMaxFarmCells.
 FarmSummary run_farm(const Grid& grid, const std::filesystem::path& directory,
                      const FarmOptions& options);
 

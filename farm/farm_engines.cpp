@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/version.hpp"
 #include "farm/job.hpp"
 #include "records/farm_file.hpp"
@@ -31,6 +32,10 @@ fs::path program_for(const ProgramPaths& programs, const std::string& engine) {
   return found == programs.end() ? fs::path() : found->second;
 }
 
+std::string start_of(const std::string& engine, const std::string& program) {
+  return fmt::format("start '{}' as {}", printable(program, 1000), printable(engine));
+}
+
 std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice) {
   std::vector<FarmEngine> engines;
@@ -45,7 +50,7 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
   FileHashes& hashes = FileHashes::of_user();
   for (const auto& name : names) {
     const fs::path program = program_for(choice.programs, name);
-    auto made = make_farm_engine(name, choice.programs, choice.outside);
+    auto made = make_farm_engine(name, choice.programs, choice.outside, choice.leave);
     if (choice.as_recorded) {
       take_from_last_run(engines.emplace_back(FarmEngine{std::move(made), name}));
       continue;
@@ -66,10 +71,11 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
 }
 
 std::unique_ptr<Engine> make_farm_engine(const std::string& name, const ProgramPaths& programs,
-                                         std::span<const OutsideEngine> outside) {
+                                         std::span<const OutsideEngine> outside,
+                                         const Leave& leave) {
   const auto found = std::ranges::find(outside, name, &OutsideEngine::name);
   return found == outside.end() ? make_engine(name, program_for(programs, name))
-                                : make_outside_engine(*found);
+                                : make_outside_engine(*found, leave);
 }
 
 FarmEngine look_for_engine(std::unique_ptr<Engine> made, FileHashes& hashes) {
@@ -84,12 +90,13 @@ FarmEngine look_for_engine(std::unique_ptr<Engine> made, FileHashes& hashes) {
   return engine;
 }
 
-std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs) {
+std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs,
+                              const Leave& leave) {
   FileHashes& hashes = FileHashes::of_user();
   const OutsideEngine* outside = planned.engine->outside();
   const FarmEngine here = look_for_engine(
       make_farm_engine(planned.name, programs,
-                       outside ? std::span(outside, 1) : std::span<const OutsideEngine>()),
+                       outside ? std::span(outside, 1) : std::span<const OutsideEngine>(), leave),
       hashes);
   hashes.save();
   const std::string_view title = planned.engine->info().title;

@@ -18,6 +18,8 @@ namespace lobelia {
 using ProgramPaths = std::map<std::string, std::filesystem::path>;
 /// Empty if there is none for this engine.
 std::filesystem::path program_for(const ProgramPaths& programs, const std::string& engine);
+/// "start '/opt/povray' as povray", of a program that a record names, for refuse_without_leave().
+std::string start_of(const std::string& engine, const std::string& program);
 
 struct FarmEngine {
   std::unique_ptr<Engine> engine;
@@ -39,6 +41,7 @@ struct EngineChoice {
       farm_directory;        ///< its farm.json lists the engines of the last run; empty: none
   bool as_recorded = false;  ///< takes these without looking for any program
   std::vector<OutsideEngine> outside = {};  ///< besides those of the catalogue
+  Leave leave = {};                         ///< for these, of the files that name them
 };
 
 /// Throws Error(kEngine) if an engine is broken, a program is not that engine, or a required engine is absent.
@@ -46,14 +49,16 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice);
 
 /// How an engine here differs from the plan, "POV-Ray: engine content: other files under ..."; empty if it is the same.
-std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs);
+std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs,
+                              const Leave& leave);
 
 /// The engine on this machine, usable or not.
 FarmEngine look_for_engine(std::unique_ptr<Engine> engine, FileHashes& hashes);
 
 /// The one of `outside` with this name, or the catalogue's.
 std::unique_ptr<Engine> make_farm_engine(const std::string& name, const ProgramPaths& programs,
-                                         std::span<const OutsideEngine> outside);
+                                         std::span<const OutsideEngine> outside,
+                                         const Leave& leave);
 
 /// "POV-Ray is absent: no program 'povray' in $PATH; to get it: ..."
 std::string absence(const FarmEngine& engine);

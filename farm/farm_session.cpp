@@ -45,6 +45,13 @@ const Grid& checked(const Grid& grid) {
   return grid;
 }
 
+/// The leave for what the grid says. Throws Error(kUsage) if it starts a program without.
+Leave leave_of(const Grid& grid, const FarmOptions& options) {
+  const Leave leave = options.leave.said_by(grid.directory);
+  if (!options.engines_as_recorded) require_leave_to_start(grid.outside, leave);
+  return leave;
+}
+
 /// Makes the directory. Throws before any work starts if a part of it is a link, or the gallery cannot be written.
 const fs::path& made(const fs::path& directory, const FarmOptions& options) {
   require_apart(cache_directory(options.cache, directory), directory);
@@ -67,8 +74,9 @@ FarmWork::FarmWork(const Grid& g, const FarmOptions& options, const fs::path& di
     : grid(g),
       cells{cells_of(g), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }, g.truth,
             g.ours},
-      engines(find_engines(g.engines, {options.programs, options.require_engines, directory,
-                                       options.engines_as_recorded, g.outside})),
+      engines(
+          find_engines(g.engines, {options.programs, options.require_engines, directory,
+                                   options.engines_as_recorded, g.outside, leave_of(g, options)})),
       graph(cells, engines) {}
 
 std::vector<std::string> FarmWork::absences() const {

@@ -73,6 +73,7 @@ struct Grid {
   std::string title;
   std::string authors, url;                     ///< of the study, for its gallery; may be empty
   std::string file_name;                        ///< without directory
+  std::filesystem::path directory;              ///< of the file: absolute, without links
   Scene scene;                                  ///< empty if there is an axis of scenes
   std::vector<Axis> axes;                       ///< at least one, in the file's order
   std::vector<std::string> engines;             ///< all that any cell is compared with

@@ -79,8 +79,12 @@ std::span<const XmlElement> grid_elements() {
 
 class GridReader {
  public:
-  GridReader(XmlSource& source, std::filesystem::path directory)
-      : source_(source), directory_(std::move(directory)) {}
+  /// `directory` is the file's by its path as it was given, `real_directory` that of InputFile::real_path().
+  GridReader(XmlSource& source, std::filesystem::path directory,
+             std::filesystem::path real_directory)
+      : source_(source), directory_(std::move(directory)) {
+    grid_.directory = std::move(real_directory);
+  }
 
   Grid read() {
     const auto root = source_.root();
@@ -276,7 +280,7 @@ class GridReader {
     if (node.attribute("file")) {
       name = read_engine_of_file(node);
     } else if (std::string_view(node.name()) == "pictures" || is_outside_engine(node)) {
-      if (auto outside = read_outside_engine(source_, node, directory_))
+      if (auto outside = read_outside_engine(source_, node, grid_.directory))
         name = add_outside(node, std::move(*outside));
     } else {
       source_.check_attributes(node, {"name"});
@@ -437,8 +441,9 @@ std::string grid_schema() { return xml_schema(grid_elements()); }
 
 Grid read_grid(const std::filesystem::path& named) {
   const std::filesystem::path path = or_shipped(named);
-  XmlSource source(read_file(path, kMaxGridBytes), path.string(), kMaxGridBytes);
-  Grid grid = GridReader(source, path.parent_path()).read();
+  const InputFile file(path);
+  XmlSource source(read_file(file, kMaxGridBytes), path.string(), kMaxGridBytes);
+  Grid grid = GridReader(source, path.parent_path(), file.real_path().parent_path()).read();
   grid.file_name = path.filename().string();
   return grid;
 }

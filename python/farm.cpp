@@ -11,7 +11,6 @@
 #include "farm/upkeep.hpp"
 #include "python/module.hpp"
 #include "records/record.hpp"
-#include "reference_scenes/engines/outside/outside.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "studies/cost/benchmarks.hpp"
 
@@ -52,12 +51,12 @@ std::pair<std::string, std::vector<std::string>> farm(const py::object& grid_fil
   options.disk = parse_size(disk);
   options.failed_directory = std::filesystem::absolute(directory) / FailedJobs::kName;
   options.filter = JobFilter(filter);
+  options.leave = Leave::of_user(allow_commands);
   options.command = cli::command_line();
   std::string record;
   std::vector<std::string> sentences;
   run(progress, [&, file = path_of(grid_file)](const ShowProgress& show) {
     const Grid grid = read_grid(file);
-    require_commands_allowed(grid.outside, allow_commands);
     options.on_progress = [&](const FarmProgress& now) {
       if (now.total > 0) show(double(now.done) / double(now.total));
     };

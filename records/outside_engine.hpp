@@ -10,7 +10,7 @@ namespace lobelia::records {
 /// Either a program (`command`) or pictures that exist already (`files`).
 struct OutsideEngine {
   std::string name, title;
-  std::string directory;  ///< absolute: of the file that describes it
+  std::string directory;  ///< of the file that describes it: absolute, without links
   std::vector<std::string> command, version_command;
   std::string files;
   std::string scene;

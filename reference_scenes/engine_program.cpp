@@ -239,10 +239,16 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     return {FailureClass::kNoOutput, fmt::format("{} wrote no picture", engine.title)};
+  return read_engine_picture(
+      engine, [&] { return PictureFile(file); }, film, image);
+}
+
+Failure read_engine_picture(const EngineInfo& engine, const std::function<PictureFile()>& open,
+                            const Film& film, Image& image) {
   try {
     // Allows a larger picture too, so that the message can tell its size.
     const std::uint64_t pixels = 4 * std::uint64_t(film.width) * std::uint64_t(film.height);
-    image = read_picture(file, "", {std::max(pixels, kSmallPicture), 0}).image;
+    image = read_picture(open(), "", {std::max(pixels, kSmallPicture), 0}).image;
   } catch (const std::exception& error) {
     throw_if_interrupted();
     return {FailureClass::kBadOutput,

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/picture_file.hpp"
 #include "core/process.hpp"
 #include "reference_scenes/engine.hpp"
 
@@ -60,6 +62,9 @@ Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arg
 
 /// Reads a picture, which must have the film's size.
 Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,
+                            const Film& film, Image& image);
+/// The same for a file that `open` opens.
+Failure read_engine_picture(const EngineInfo& engine, const std::function<PictureFile()>& open,
                             const Film& film, Image& image);
 
 /// The result of a scene without a picture.

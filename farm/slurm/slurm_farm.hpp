@@ -17,18 +17,20 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const std::filesystem::path
                                    const std::filesystem::path& directory,
                                    const FarmOptions& options, SlurmRunOptions slurm);
 
-/// Goes on with the run that another client began in `directory`. Throws Error(kInput) if there is none.
+/// Goes on with the run that another client began in `directory`. Throws Error(kInput) if there is none, and Error(kUsage)
+/// without leave for what its record says: the programs to start, and places outside of `directory` to write into.
 SlurmFarmSummary attach_to_slurm_run(const std::filesystem::path& directory,
-                                     const SlurmRunOptions& slurm);
+                                     const SlurmRunOptions& slurm, const Leave& leave);
 
 /// DIRECTORY/runs/slurm: a farm has one run at a time.
 std::filesystem::path slurm_run_directory(const std::filesystem::path& directory);
 
-/// For an element: does chunk NUMBER with the threads that Slurm gave it, otherwise one.
-ChunkSummary exec_slurm_chunk(const std::filesystem::path& run_directory, std::size_t number);
+/// For an element: exec_chunk() of chunk NUMBER with the threads that Slurm gave it, otherwise one.
+ChunkSummary exec_slurm_chunk(const std::filesystem::path& run_directory, std::size_t number,
+                              const Leave& leave);
 
-/// For the last element: writes the farm's directory from the results of the others.
-SlurmFarmSummary finish_slurm_run(const std::filesystem::path& run_directory);
+/// For the last element: writes the farm's directory from the results of the others. Throws as attach_to_slurm_run().
+SlurmFarmSummary finish_slurm_run(const std::filesystem::path& run_directory, const Leave& leave);
 
 /// The path of the running program, which is the same on the nodes.
 std::filesystem::path own_program();

@@ -40,7 +40,8 @@ struct SlurmWork {
   /// The same for the same work, so that another client finds the run again. Holds slurm.json (its jobs), log/ and submit/
   /// (scripts), on a file system that the nodes share.
   std::filesystem::path run_directory;
-  /// Called as `PROGRAM farm exec-chunk RUN_DIR NUMBER` for an element and `PROGRAM farm finish RUN_DIR` at the end.
+  /// Called as `PROGRAM farm exec-chunk RUN_DIR NUMBER --allow-commands` for an element and
+  /// `PROGRAM farm finish RUN_DIR --allow-commands` at the end.
   std::filesystem::path program;
   /// Jobs without a result that are still to be tried. Called before each round; an empty list ends the run.
   std::function<std::vector<SlurmJob>()> missing;

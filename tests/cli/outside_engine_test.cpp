@@ -124,6 +124,52 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
         << folder;
 }
 
+TEST_F(OutsideEngines, AProgramStartsOnlyIfEveryFileThatHasASayIsTrusted) {
+  for (const char* folder : {"trusted/sub", "outside/deep"}) fs::create_directories(path(folder));
+  const std::string engine = "<engine name=\"mine\" command=\"sh mine.sh {scene} {out}\"/>";
+  for (const char* file : {"trusted/x.engine.xml", "outside/o.engine.xml"})
+    write_file(path(file), engine);
+  fs::create_directory_symlink("../../outside/deep", path("trusted/sub/ln"));
+  fs::create_symlink("../outside/o.engine.xml", path("trusted/link.engine.xml"));
+  const auto exit_code = [&](const std::string& engines, const std::string& folder) {
+    grid(engines);
+    fs::rename(path("grid.xml"), path(folder) / "grid.xml");
+    return run_shell("LOBELIA_ALLOW_COMMANDS_IN=\"$PWD\"/trusted \"$LOBELIA\" engines " + folder +
+                         "/grid.xml --models",
+                     directory_.path())
+        .exit_code;
+  };
+  EXPECT_EQ(exit_code("<engine file=\"x.engine.xml\"/>", "trusted"), 0);
+  EXPECT_EQ(exit_code("<engine file=\"../trusted/x.engine.xml\"/>", "outside"), 2);
+  EXPECT_EQ(exit_code("<engine file=\"../outside/o.engine.xml\"/>", "trusted"), 2);
+  // The kernel follows the link first: it is outside/o.engine.xml.
+  EXPECT_EQ(exit_code("<engine file=\"sub/ln/../o.engine.xml\"/>", "trusted"), 2);
+  EXPECT_EQ(exit_code("<engine file=\"link.engine.xml\"/>", "trusted"), 2);
+  EXPECT_EQ(exit_code(engine, "outside"), 2);
+  fs::remove(path("trusted/grid.xml"));
+  fs::create_symlink("../outside/grid.xml", path("trusted/linked.xml"));
+  EXPECT_EQ(run_shell("LOBELIA_ALLOW_COMMANDS_IN=\"$PWD\"/trusted \"$LOBELIA\" engines "
+                      "trusted/linked.xml --models",
+                      directory_.path())
+                .exit_code,
+            2);
+}
+
+TEST_F(OutsideEngines, NoProgramIsGivenAValueThatItCouldTakeForAnOption) {
+  script("mine.sh", "");
+  fs::copy_file(kScenes + "head_on.xml", path("--exec=evil.xml"));
+  write_file(path("grid.xml"),
+             "<grid version=\"1\"><scene file=\"" + kScenes +
+                 "head_on.xml\"/><film width=\"32\" height=\"32\"/><axis name=\"light\" "
+                 "values=\"--exec=evil.xml\"/><engine name=\"mine\" command=\"sh mine.sh {scene} "
+                 "{out} {light}\"/></grid>");
+  const ProcessResult result = farm();
+  expect_one_line(result, 3,
+                  "light '--exec=evil.xml': a program could take a value that begins "
+                  "with '-' for an option");
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
 TEST_F(OutsideEngines, ThatMisbehavesLosesItsOwnCellsAlone) {
   script("good.sh", "");
   struct Case {
@@ -237,7 +283,28 @@ TEST_F(OutsideEngines, OfPicturesShowsThoseThatAreThereAndMissesTheOthers) {
   EXPECT_EQ(cell("n32")["status"], "differs");
 }
 
-TEST_F(OutsideEngines, OfPicturesTakesAFileOfAnySizeForAFailureAtOnce) {
+TEST_F(OutsideEngines, APictureOutsideOfTheGridsFolderIsReadOnlyWithLeave) {
+  const TemporaryDirectory secret;
+  const std::string file = (secret.path() / "x.exr").string();
+  ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "--width", "32", "--height", "32",
+                         "--exponent", "16", "-o", file},
+                        directory_.path())
+                .exit_code,
+            0);
+  fs::create_symlink(file, path("link.exr"));
+  const std::string beside = "../" + secret.path().filename().string() + "/x.exr";
+  for (const std::string& name : {file, beside, std::string("link.exr")}) {
+    grid("<pictures name=\"studio\" files=\"" + name + "\"/>");
+    const ProcessResult refused = farm({});
+    expect_one_line(refused, 2, "read '" + name + "' for engine studio");
+    EXPECT_THAT(refused.output_tail, HasSubstr("--allow-commands"));
+    EXPECT_FALSE(fs::exists(path("out"))) << name;
+  }
+  EXPECT_EQ(farm().exit_code, 1) << "the cell of another exponent differs";
+  EXPECT_THAT(images("n16"), ElementsAre("lobelia", "studio"));
+}
+
+TEST_F(OutsideEngines, AHugePictureFileFailsItsCellAtOnce) {
   write_file(path("huge.exr"), "");
   fs::resize_file(path("huge.exr"), std::uintmax_t{1} << 40);
   grid("<pictures name=\"studio\" files=\"huge.exr\"/>");

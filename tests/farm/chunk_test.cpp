@@ -10,6 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const Leave kLeave = Leave::of_user(true);
 constexpr char kPictures[] = "*render:*reference*", kTheRest[] = "*compare*:*profile";
 
 class ChunkTest : public FarmTest {
@@ -34,7 +35,7 @@ TEST_F(ChunkTest, MakesTheVeryResultsThatTheFarmWouldMake) {
   const Grid small = two();
   for (const char* part : {kPictures, kTheRest}) {
     const fs::path file = chunk(small, part);
-    const ChunkSummary done = exec_chunk(file, 1), again = exec_chunk(file, 2);
+    const ChunkSummary done = exec_chunk(file, 1, kLeave), again = exec_chunk(file, 2, kLeave);
     EXPECT_EQ(done.jobs, 4u) << part;
     EXPECT_EQ(done.done, 4u) << part;
     EXPECT_EQ(done.work.made, 4u) << part;
@@ -47,7 +48,7 @@ TEST_F(ChunkTest, MakesTheVeryResultsThatTheFarmWouldMake) {
 }
 
 TEST_F(ChunkTest, LeavesAloneWhatHasNoInputs) {
-  const ChunkSummary done = exec_chunk(chunk(two(), kTheRest), 1);
+  const ChunkSummary done = exec_chunk(chunk(two(), kTheRest), 1, kLeave);
   EXPECT_EQ(done.jobs, 4u);
   EXPECT_EQ(done.done, 0u);
   EXPECT_EQ(done.failed, 0u) << "the next round has it";
@@ -58,10 +59,10 @@ TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
   FarmOptions options;
   options.attempts = 1;
   options.programs = {{"povray", failing_povray()}};
-  ChunkSummary done = exec_chunk(chunk(small, kPictures, options), 1);
+  ChunkSummary done = exec_chunk(chunk(small, kPictures, options), 1, kLeave);
   EXPECT_EQ(done.done, 2u);
   EXPECT_EQ(done.failed, 1u);
-  done = exec_chunk(chunk(small, kTheRest, options), 1);
+  done = exec_chunk(chunk(small, kTheRest, options), 1, kLeave);
   EXPECT_EQ(done.done, 2u) << "one comparison, and a profile without POV-Ray";
 }
 
@@ -72,7 +73,7 @@ TEST_F(ChunkTest, OfAnotherMachineIsHandedBackUndoneAndNotFailed) {
     Json other = record;
     change(other);
     write_json(file, other);
-    const ChunkSummary summary = exec_chunk(file, 1);
+    const ChunkSummary summary = exec_chunk(file, 1, kLeave);
     EXPECT_EQ(summary.jobs, 8u);
     EXPECT_EQ(summary.done + summary.failed + summary.work.made, 0u);
     const ResultCache cache(out() / "cache");
@@ -94,7 +95,7 @@ TEST_F(ChunkTest, OfAnotherMachineIsHandedBackUndoneAndNotFailed) {
   EXPECT_THAT(because([](Json& plan) { plan["arithmetic"]["processor"] = "sse2"; }),
               ElementsAre(StartsWith("processor: ")));
   write_json(file, record);
-  EXPECT_EQ(exec_chunk(file, 1).done, 8u);
+  EXPECT_EQ(exec_chunk(file, 1, kLeave).done, 8u);
 }
 
 TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
@@ -106,7 +107,7 @@ TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
   const auto exec = [&](const Json& plan) {
     fs::remove_all(out() / "cache");
     write_json(file, plan);
-    const ChunkSummary summary = exec_chunk(file, 1);
+    const ChunkSummary summary = exec_chunk(file, 1, kLeave);
     EXPECT_EQ(summary.done, 2u) << "ours, and the formula's";
     EXPECT_EQ(summary.failed, 0u);
     std::vector<std::string> why;

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/picture_file.hpp"
 #include "core/process.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
@@ -49,14 +51,14 @@ std::string version_in(const std::string& output) {
 
 class Outside final : public Engine {
  public:
-  explicit Outside(const OutsideEngine& engine);
+  Outside(const OutsideEngine& engine, const Leave& leave);
   const EngineInfo& info() const override { return info_; }
   const EngineStatus& status() override;
   const OutsideEngine* outside() const override { return &engine_; }
   std::string key_part(const AxisValues& axes) const override;
 
   bool has_program() const { return !engine_.command.empty(); }
-  fs::path picture_of(const AxisValues& axes) const;
+  InputFile open_picture(const AxisValues& axes) const;
   std::vector<std::string> command(const AxisValues& axes, const Film& film, int threads,
                                    const std::string& scene, const std::string& picture) const;
   std::vector<std::string> environment(const fs::path& directory) const;
@@ -68,8 +70,11 @@ class Outside final : public Engine {
 
  private:
   std::string why_not_ready(EngineStatus& status) const;
+  /// From `directory`.
+  fs::path picture_of(const AxisValues& axes) const;
 
   const OutsideEngine engine_;
+  const Leave leave_;
   const std::vector<std::string> command_, version_command_;  ///< with full paths
   std::string effects_;
   EngineInfo info_;
@@ -116,8 +121,9 @@ class OutsideSession final : public SimpleSession {
   std::atomic<bool> stop_ = false;
 };
 
-Outside::Outside(const OutsideEngine& engine)
+Outside::Outside(const OutsideEngine& engine, const Leave& leave)
     : engine_(engine),
+      leave_(leave.said_by(engine.directory)),
       command_(with_full_paths(engine.command, engine.directory)),
       version_command_(with_full_paths(engine.version_command, engine.directory)),
       effects_(engine.effects ? fmt::format("{}", fmt::join(*engine.effects, ", "))
@@ -142,6 +148,11 @@ const EngineStatus& Outside::status() {
   if (!has_program()) {
     status_->state = EngineState::kReady;
     status_->version = "pictures";
+    return *status_;
+  }
+  if (!leave_) {
+    status_->state = EngineState::kBroken;
+    status_->why = "nobody gave leave to start it (--allow-commands)";
     return *status_;
   }
   status_->program = find_program(command_.front());
@@ -193,10 +204,15 @@ std::string Outside::why_not_ready(EngineStatus& status) const {
 }
 
 fs::path Outside::picture_of(const AxisValues& axes) const {
-  return fs::path(engine_.directory) / filled_in(engine_.files, [&](std::string_view name) {
-           const std::string* value = records::find(axes, name);
-           return value ? *value : std::string();
-         });
+  return filled_in(engine_.files, [&](std::string_view name) {
+    const std::string* value = records::find(axes, name);
+    return value ? *value : std::string();
+  });
+}
+
+InputFile Outside::open_picture(const AxisValues& axes) const {
+  return open_named(picture_of(axes), engine_.directory, leave_,
+                    fmt::format("engine {}", engine_.name));
 }
 
 std::vector<std::string> Outside::command(const AxisValues& axes, const Film& film, int threads,
@@ -211,7 +227,9 @@ std::vector<std::string> Outside::command(const AxisValues& axes, const Film& fi
       if (name == "height") return fmt::format("{}", film.height);
       if (name == "threads") return fmt::format("{}", threads);
       const std::string* value = records::find(axes, name);
-      return value ? *value : std::string();
+      if (!value) return std::string();
+      require_no_option(*value, name);
+      return *value;
     }));
   return arguments;
 }
@@ -228,8 +246,9 @@ std::vector<std::string> Outside::environment(const fs::path& directory) const {
 std::string Outside::key_part(const AxisValues& axes) const {
   if (!has_program()) {
     try {
-      return FileHashes::of_user().hash(picture_of(axes)).sha256;
-    } catch (const Error&) {
+      return FileHashes::of_user().hash(open_picture(axes)).sha256;
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kInput) throw;
       return "unreadable";
     }
   }
@@ -245,10 +264,9 @@ std::string Outside::why_not_whole(const Scene& scene, const AxisValues& axes) c
   if (!has_program()) {
     const fs::path file = picture_of(axes);
     std::error_code unknown;
-    return fs::is_regular_file(file, unknown)
+    return fs::is_regular_file(engine_.directory / file, unknown)
                ? ""
-               : fmt::format("{}{}", kMissingPicture,
-                             printable_path(file.lexically_relative(engine_.directory).string()));
+               : fmt::format("{}{}", kMissingPicture, printable_path(file.string()));
   }
   const SceneFormat& format = scene_format(engine_.scene);
   if (std::string why = format.why_not(scene); !why.empty())
@@ -278,8 +296,10 @@ ReferenceResult OutsideSession::finished(const Scene& scene, Failure failure) co
 
 ReferenceResult OutsideSession::read(const Scene& scene, const AxisValues& axes) const {
   Image image;
-  ReferenceResult result = finished(
-      scene, read_engine_picture(engine_.info(), engine_.picture_of(axes), scene.film, image));
+  ReferenceResult result =
+      finished(scene, read_engine_picture(
+                          engine_.info(), [&] { return PictureFile(engine_.open_picture(axes)); },
+                          scene.film, image));
   result.image = std::move(image);
   result.record.method = "a picture that was there";
   return result;
@@ -326,54 +346,36 @@ ReferenceResult OutsideSession::run(const Scene& scene, const AxisValues& axes,
   return result;
 }
 
-/// The folders in $LOBELIA_ALLOW_COMMANDS_IN.
-std::vector<fs::path> allowed_folders() {
-  std::vector<fs::path> folders;
-  const char* list = std::getenv("LOBELIA_ALLOW_COMMANDS_IN");
-  for (const std::string& folder : split(list ? list : "", ":")) {
-    std::error_code unknown;
-    const fs::path real = fs::canonical(folder, unknown);
-    if (!unknown && fs::path(folder).is_absolute()) folders.push_back(real);
-  }
-  return folders;
-}
-
 }  // namespace
 
-std::unique_ptr<Engine> make_outside_engine(const OutsideEngine& engine) {
-  return std::make_unique<Outside>(engine);
+std::unique_ptr<Engine> make_outside_engine(const OutsideEngine& engine, const Leave& leave) {
+  return std::make_unique<Outside>(engine, leave);
 }
 
 void keep_outside_input(const OutsideEngine& engine, const Scene& scene, const AxisValues& axes,
                         const fs::path& directory) {
-  const Outside outside(engine);
+  const Outside outside(engine, {});
   if (!outside.has_program()) return;
   const std::string main_file = write_scene(engine, scene, directory);
   write_file(directory / "again.sh",
              shell_join(outside.command(axes, scene.film, 1, main_file, kPicture)) + "\n");
 }
 
-void require_commands_allowed(std::span<const OutsideEngine> engines, bool allowed) {
-  const std::vector<fs::path> folders = allowed_folders();
-  std::string started;
-  for (const OutsideEngine& engine : engines) {
-    if (engine.command.empty() || allowed) continue;
-    std::error_code unknown;
-    const fs::path real = fs::canonical(engine.directory, unknown);
-    if (!unknown && std::ranges::any_of(folders, [&](const fs::path& folder) {
-          return std::ranges::mismatch(folder, real).in1 == folder.end();
-        }))
-      continue;
-    for (const auto* command : {&engine.version_command, &engine.command})
-      if (!command->empty())
-        started += fmt::format("{}'{}' by engine {}", started.empty() ? "" : ", ",
-                               printable(shell_join(*command), 1000), engine.name);
-  }
-  if (!started.empty())
-    throw Error(ExitCode::kUsage,
-                fmt::format("this would start {}; if you trust the file that says so, give "
-                            "--allow-commands or name its folder in $LOBELIA_ALLOW_COMMANDS_IN",
-                            started));
+std::vector<std::string> starts_of(const OutsideEngine& engine) {
+  std::vector<std::string> starts;
+  for (const auto* command : {&engine.version_command, &engine.command})
+    if (!command->empty())
+      starts.push_back(fmt::format("start '{}' by engine {}", printable(shell_join(*command), 1000),
+                                   engine.name));
+  return starts;
+}
+
+void require_leave_to_start(std::span<const OutsideEngine> engines, const Leave& leave) {
+  std::vector<std::string> wishes;
+  for (const OutsideEngine& engine : engines)
+    if (!leave.said_by(engine.directory))
+      std::ranges::move(starts_of(engine), std::back_inserter(wishes));
+  if (!wishes.empty()) refuse_without_leave(wishes);
 }
 
 }  // namespace lobelia

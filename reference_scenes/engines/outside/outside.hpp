@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/leave.hpp"
 #include "records/outside_engine.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/outside/command_text.hpp"
@@ -16,16 +19,19 @@ namespace lobelia {
 using records::OutsideEngine;
 
 /// Its status() runs `version_command`, and a session runs `command` for each picture: without a shell, contained as every
-/// engine. A picture file that does not exist is a refusal that begins with kMissingPicture.
-std::unique_ptr<Engine> make_outside_engine(const OutsideEngine& engine);
+/// engine. `leave` is that of the files that name it; without leave for its own file too, nothing is started, and pictures
+/// that lie elsewhere are Error(kUsage). A picture file that does not exist is a refusal that begins with kMissingPicture.
+std::unique_ptr<Engine> make_outside_engine(const OutsideEngine& engine, const Leave& leave);
 inline constexpr std::string_view kMissingPicture = "missing: ";
 
 /// Writes the cell's scene and a script with its command into `directory`; nothing for pictures that exist.
 void keep_outside_input(const OutsideEngine& engine, const Scene& scene, const AxisValues& axes,
                         const std::filesystem::path& directory);
 
-/// Throws Error(kUsage), with all that would be started, unless `allowed` or the file that describes each program lies in a
-/// directory named in $LOBELIA_ALLOW_COMMANDS_IN, a list with colons.
-void require_commands_allowed(std::span<const OutsideEngine> engines, bool allowed);
+/// Lists what the engine starts, for refuse_without_leave(): "start 'sh mine.sh' by engine mine". Nothing for pictures.
+std::vector<std::string> starts_of(const OutsideEngine& engine);
+
+/// Throws Error(kUsage), with all that would be started without leave. `leave` is that of the file that names the engines.
+void require_leave_to_start(std::span<const OutsideEngine> engines, const Leave& leave);
 
 }  // namespace lobelia

@@ -38,8 +38,7 @@ class Reader {
  public:
   Reader(XmlSource& source, pugi::xml_node node, const fs::path& directory)
       : source_(source), node_(node) {
-    engine_.directory =
-        fs::absolute(directory.empty() ? "." : directory).lexically_normal().string();
+    engine_.directory = directory.string();
   }
 
   std::optional<OutsideEngine> read() {
@@ -205,11 +204,12 @@ std::optional<records::OutsideEngine> read_outside_engine(XmlSource& source, pug
 
 records::OutsideEngine read_engine_file(const fs::path& path) {
   constexpr std::size_t kMostBytes = 1 << 20;
-  XmlSource source(read_file(path, kMostBytes), path.string(), kMostBytes);
+  const InputFile file(path);
+  XmlSource source(read_file(file, kMostBytes), path.string(), kMostBytes);
   const pugi::xml_node root = source.root();
   std::optional<records::OutsideEngine> engine;
   if (std::string_view(root.name()) == "engine")
-    engine = read_outside_engine(source, root, path.parent_path());
+    engine = read_outside_engine(source, root, file.real_path().parent_path());
   else
     source.error(root, fmt::format("the root element is <{}>; an engine file is one <engine>",
                                    printable(root.name())));

@@ -16,7 +16,8 @@ std::span<const XmlElement> outside_elements();
 /// Whether the <engine> describes one, and does not just name one of the catalogue.
 bool is_outside_engine(pugi::xml_node node);
 
-/// `directory` is that of the XML file. Notes errors in `source`, and then returns none. Starts nothing.
+/// `directory` is that of InputFile::real_path() of the XML file. Notes errors in `source`, and then returns none. Starts
+/// nothing.
 std::optional<records::OutsideEngine> read_outside_engine(XmlSource& source, pugi::xml_node node,
                                                           const std::filesystem::path& directory);
 

@@ -299,7 +299,7 @@ TEST_F(OddEngine, ThatFailsAtEverythingOnANodeLeavesTheRestToAnother) {
   for (JobIndex job = 0; job < work.graph.size(); ++job)
     if (work.graph[job].exists) jobs.push_back(job);
   records::write_record(root() / "chunk.json", chunk_record(work, results, options, jobs));
-  const ChunkSummary first = exec_chunk(root() / "chunk.json", 1);
+  const ChunkSummary first = exec_chunk(root() / "chunk.json", 1, Leave::of_user(true));
   EXPECT_GE(first.failed, 5u);
   EXPECT_GT(first.undone, 0u);
   EXPECT_EQ(first.work.undone, 60 - first.failed);

@@ -28,13 +28,43 @@ class HostileChunk : public testing::Test {
          {"a/render"}}};
     good_ = as_json(chunk);
   }
-  ChunkSummary exec(const std::string& text) const {
+  ChunkSummary exec(const std::string& text, const Leave& leave = Leave::of_user(true)) const {
     write_file(directory_.path() / "chunk.json", text);
-    return exec_chunk(directory_.path() / "chunk.json", 1);
+    return exec_chunk(directory_.path() / "chunk.json", 1, leave);
   }
   const TemporaryDirectory directory_;
   Json good_;
 };
+
+TEST_F(HostileChunk, StartsNothingAndWritesNothingWithoutLeave) {
+  Json chunk = good_;
+  chunk["engines"] = Json::array(
+      {{{"name", "povray"}, {"version", "3.7"}, {"content", ""}, {"program", "/evil/povray"}},
+       {{"name", "mine"},
+        {"version", "1"},
+        {"content", ""},
+        {"outside",
+         {{"name", "mine"},
+          {"title", "Mine"},
+          {"directory", directory_.path().string()},
+          {"command", {"sh", "evil.sh", "{out}"}},
+          {"versionCommand", {"sh", "-c", ": > started"}},
+          {"ofValue", 0},
+          {"ofPeak", 0}}}}});
+  try {
+    exec(chunk.dump(), {});
+    ADD_FAILURE() << "it was done";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("start '/evil/povray' as povray"),
+                               testing::HasSubstr("start 'sh evil.sh '{out}'' by engine mine"),
+                               testing::HasSubstr("write into the cache"),
+                               testing::HasSubstr("--allow-commands")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory_.path() / "cache"));
+  EXPECT_FALSE(std::filesystem::exists(directory_.path() / "started"));
+}
 
 TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
   std::vector<std::string> texts{"", "{}", "[]", "null", std::string(100000, '[')};

@@ -93,7 +93,10 @@ TEST_F(FarmOnCluster, IsFollowedAgainAfterItsClientWasKilled) {
   }
   const FarmRun status = run_command({"farm", "status", "out"});
   EXPECT_THAT(status.output, HasSubstr("farm status --attach out"));
-  const FarmRun attached = run_command({"farm", "status", "out", "--attach"});
+  const FarmRun refused = run_command({"farm", "status", "out", "--attach"});
+  EXPECT_EQ(refused.exit_code, 2) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("--allow-commands"));
+  const FarmRun attached = run_command({"farm", "status", "out", "--attach", "--allow-commands"});
   EXPECT_EQ(attached.exit_code, 0) << attached.output;
   EXPECT_THAT(attached.output, HasSubstr("12 cells: 12 pass"));
   expect_local_results(attached.output);

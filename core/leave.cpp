@@ -1,0 +1,65 @@
+#include "core/leave.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+bool lies_in_trusted_folder(const fs::path& real_path) {
+  const char* list = std::getenv("LOBELIA_ALLOW_COMMANDS_IN");
+  const std::vector<std::string> folders = split(list ? list : "", ":");
+  return std::ranges::any_of(folders, [&](const std::string& folder) {
+    std::error_code unknown;
+    const fs::path real = fs::canonical(folder, unknown);
+    return !unknown && fs::path(folder).is_absolute() && is_below(real_path, real);
+  });
+}
+
+}  // namespace
+
+Leave Leave::of_user(bool given) {
+  Leave leave;
+  if (given) leave.state_ = State::kOfUser;
+  return leave;
+}
+
+Leave Leave::said_by(const fs::path& real_path) const {
+  Leave leave = *this;
+  if (state_ == State::kNone || state_ == State::kTrusted)
+    leave.state_ = lies_in_trusted_folder(real_path) ? State::kTrusted : State::kUntrusted;
+  return leave;
+}
+
+void refuse_without_leave(const std::vector<std::string>& wishes) {
+  throw Error(
+      ExitCode::kUsage,
+      fmt::format("this would {}; if you trust the files that say so, give --allow-commands "
+                  "or name their folders in $LOBELIA_ALLOW_COMMANDS_IN",
+                  fmt::join(wishes, ", ")));
+}
+
+InputFile open_named(const fs::path& name, const fs::path& directory, const Leave& leave,
+                     std::string_view reader) {
+  InputFile file(directory / name);
+  if (!leave && !is_below(file.real_path(), directory))
+    refuse_without_leave({fmt::format("read '{}' for {}, outside of the directory that names it",
+                                      printable(name.string(), 1000), reader)});
+  return file;
+}
+
+void require_no_option(std::string_view value, std::string_view what) {
+  if (value.starts_with('-'))
+    throw Error(ExitCode::kInput,
+                fmt::format("{} '{}': a program could take a value that begins with '-' for an "
+                            "option; rename the file",
+                            what, printable(value)));
+}
+
+}  // namespace lobelia
