@@ -225,10 +225,11 @@ std::string footer() {
       "A picture's format is told by its first bytes, not by its name. A picture that crashes its decoder\n"
       "is an error of its pair, and the others go on.\n"
       "Of two folders, a name that only B has fails, one that only A has is named. A link to a folder is\n"
-      "followed if it stays inside A or B; else it is named and fails. Exit codes: 0 pass or same, 1 over a\n"
-      "limit, not measured, not finite, missing or not followed, 2 usage, 3 a picture is unreadable, has\n"
-      "no such layer or another size, or there is no pair, 4 an output cannot be written, 6 undecided,\n"
-      "130 Ctrl-C, 143 SIGTERM.",
+      "followed if it stays inside A or B; else it is named and fails. A file that nearly is a frame of a\n"
+      "sequence, as f.01.exr is of f.%d.exr, is named and fails too. Exit codes: 0 pass or same, 1 over a\n"
+      "limit, not measured, not finite, missing, misnamed or not followed, 2 usage, 3 a picture is\n"
+      "unreadable, has no such layer or another size, or there is no pair, 4 an output cannot be written,\n"
+      "6 undecided, 130 Ctrl-C, 143 SIGTERM.",
       join(limit_names(false)), 100 * kHighlightShare, limits_text(default_limits()),
       limits_text(highlight_limits()));
 }

@@ -63,7 +63,8 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   std::vector<NewReference> list = new_references(options, pairing, report);
   const std::size_t found = list.size();
   const records::SetSummary counts = count(report);
-  const bool only_these = counts.errors + counts.missing + counts.links_not_followed == 0;
+  const bool only_these =
+      counts.errors + counts.missing + counts.links_not_followed + counts.misnamed.value_or(0) == 0;
   std::erase_if(list, [](const NewReference& one) {
     if (one.is_nonfinite)
       fmt::print("left alone: {} has values that are not finite\n",

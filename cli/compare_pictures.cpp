@@ -275,6 +275,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
   report.c = job.c;
   report.passed_over = pairing.passed_over;
   report.not_followed = pairing.not_followed;
+  report.misnamed = pairing.misnamed;
   for (std::size_t row = 0; row < pairing.rows.size(); ++row)
     for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
       const PictureRow& pictures = pairing.rows[row];

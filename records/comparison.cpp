@@ -184,6 +184,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("extra", "only a has them");
     t.key("passedOver", "files of both that are no pictures by their ending");
     t.key("known", "that would not pass, but for a known difference");
+    t.key("misnamed", "files that nearly are frames of a sequence");
   });
   tables.define<SetNotCompared>(
       "What was not compared of all pairs: names once, pixels added up, levels at their most.",
@@ -216,6 +217,10 @@ void define_comparison_tables(Tables& tables) {
         t.key("extra", "only a has them");
         t.key("linksNotFollowed",
               "links in a or b to a folder outside it, or to nothing; any makes the exit code 1");
+        t.key("misnamed",
+              "files that nearly are frames of a sequence, as f.01.exr is of f.%d.exr; any makes "
+              "the exit code 1")
+            .if_any();
       });
   tables.define<ChangedCopy>("A changed copy of the picture.", [](auto& t) {
     t.key("name", "what was changed");

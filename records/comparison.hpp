@@ -169,7 +169,7 @@ struct Comparison {
 struct SetSummary {
   std::size_t pairs = 0, pass = 0, differs = 0, undecided = 0, non_finite = 0, errors = 0,
               missing = 0, extra = 0, passed_over = 0, links_not_followed = 0;
-  std::optional<std::size_t> known;
+  std::optional<std::size_t> known, misnamed;
 };
 
 struct SetNotCompared {
@@ -205,7 +205,7 @@ struct ComparisonSet {
   SetSummary summary;
   SetNotCompared not_compared;
   Named<WorstOfSet> worst;
-  std::vector<std::string> missing, extra, links_not_followed;
+  std::vector<std::string> missing, extra, links_not_followed, misnamed;
   std::vector<PairOfSet> pairs;
 };
 

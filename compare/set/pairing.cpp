@@ -287,8 +287,27 @@ std::string frame_of(const std::string& name, const Sequence& sequence) {
   return digits;
 }
 
+/// Whether the name is a frame's but for how its number is written ("f.01.exr" of f.%d.exr, "f.-001.exr", a frame in between
+/// as "f.0001.5.exr"), or for upper and lower case.
+bool is_nearly_frame(const std::string& name, const Sequence& sequence) {
+  const std::size_t before = sequence.before.size(), after = sequence.after.size();
+  if (name.size() <= before + after ||
+      lower_case(name.substr(0, before)) != lower_case(sequence.before) ||
+      lower_case(name.substr(name.size() - after)) != lower_case(sequence.after))
+    return false;
+  std::string number = name.substr(before, name.size() - before - after);
+  if (number.front() == '-' || number.front() == '+') number.erase(0, 1);
+  // "f.2.0001.exr" is no frame of f.%04d.exr, but of another sequence: its 2 has too few digits.
+  if (const std::size_t point = number.find('.');
+      point != std::string::npos && point + 1 < number.size() &&
+      !frame_of(sequence.before + number.substr(0, point) + sequence.after, sequence).empty())
+    number.erase(point, 1);
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 Pairing pair_sequences(const PairingChoice& choice) {
   Pairing pairing{titles_of(choice.given), {"frame"}, {}, 0, {}};
+  std::set<fs::path> misnamed, taken;
   struct Frame {
     std::string number;
     std::size_t set;
@@ -302,24 +321,38 @@ Pairing pair_sequences(const PairingChoice& choice) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::error_code error;
     std::size_t files = 0;
+    fs::path nearly;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
       if (++files > choice.most_files)
         throw Error(ExitCode::kInput,
                     fmt::format("{}: holds over {} files", folder.string(), choice.most_files));
       const std::string name = entry->path().filename().string();
+      const fs::path file = path.parent_path() / name;
       const std::string number = frame_of(name, sequence);
-      if (number.empty()) continue;
+      if (number.empty()) {
+        if (!is_nearly_frame(name, sequence)) continue;
+        nearly = file.lexically_normal();
+        misnamed.insert(nearly);
+        continue;
+      }
       longest = std::max(longest, number.size());
-      frames.push_back({number, set, (path.parent_path() / name).string()});
+      frames.push_back({number, set, file.string()});
+      taken.insert(file.lexically_normal());
     }
     if (error)
       throw Error(ExitCode::kInput,
                   fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
     if (std::ranges::none_of(frames, [&](const Frame& frame) { return frame.set == set; }))
-      throw Error(ExitCode::kInput, fmt::format("{}: no file is a frame of this sequence",
-                                                printable_path(choice.given[set])));
+      throw Error(
+          ExitCode::kInput,
+          fmt::format(
+              "{}: no file is a frame of this sequence{}", printable_path(choice.given[set]),
+              nearly.empty() ? ""
+                             : fmt::format("; {} nearly is one", printable_path(nearly.string()))));
   }
+  for (const fs::path& file : misnamed)  // in a folder of both sequences it may be the other's
+    if (!taken.contains(file)) pairing.misnamed.push_back(file.string());
   // With leading zeros, so that names sort as numbers.
   constexpr std::size_t kUsualDigits = 4;
   longest = std::max(longest, kUsualDigits);

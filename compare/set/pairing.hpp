@@ -25,6 +25,8 @@ struct Pairing {
       0;  ///< files without a picture's ending, or that the pattern does not fit
   /// Links to a folder outside the set's, or to nothing; their paths begin with the folder's.
   std::vector<std::string> not_followed = {};
+  /// Files that look like frames of a sequence, but their numbers are written in another way. Sorted.
+  std::vector<std::string> misnamed = {};
   bool is_one_row = false;        ///< files that were given one by one
   std::size_t also_accepted = 0;  ///< this many of the last sets are further references
 
@@ -53,7 +55,7 @@ bool is_sequence(const std::string& path);
 /// Pairs two files, or
 /// - folders by name within them, and what is left by name without its ending, if that is unique on both sides;
 /// - folders by the fields of a pattern: {name} fits any text without '/', {} as well but tells nothing apart;
-/// - sequences by their frames' numbers;
+/// - sequences by their frames' numbers; a file that nearly is a frame ("f.01.exr" of f.%d.exr) is in Pairing::misnamed;
 /// - the columns of a CSV file (RFC 4180, with a header: the titles of the sets, and perhaps "name"), whose paths are
 ///   relative to it.
 /// Walks folders and the folders inside them. Follows a link to a folder inside, but never to one that contains the link.

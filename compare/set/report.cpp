@@ -85,6 +85,8 @@ std::vector<Problem> problems(const SetReport& report) {
     add(Weight::kFails, "missing", name, "there is only a reference");
   for (const std::string& name : report.not_followed)
     add(Weight::kFails, "link", name, std::string(kNotFollowed));
+  for (const std::string& name : report.misnamed)
+    add(Weight::kFails, "misnamed", name, std::string(kMisnamed));
   std::vector<const PairReport*> worst_first;
   for (const PairReport& pair : report.pairs)
     if (pair.comparison) worst_first.push_back(&pair);
@@ -132,6 +134,7 @@ records::SetSummary count(const SetReport& report) {
   counts.extra = report.extra.size();
   counts.passed_over = report.passed_over;
   counts.links_not_followed = report.not_followed.size();
+  if (!report.misnamed.empty()) counts.misnamed = report.misnamed.size();
   return counts;
 }
 
@@ -141,10 +144,10 @@ std::string counts_text(const SetReport& report) {
     return number > 0 ? fmt::format("{} {}, ", number, what) : "";
   };
   return fmt::format(
-      "{} pairs: {} pass, {} differ, {}{}{} not finite, {} not comparable; {} missing, {} extra",
+      "{} pairs: {} pass, {} differ, {}{}{} not finite, {} not comparable; {} missing, {}{} extra",
       counts.pairs, counts.pass, counts.differs, some(counts.known.value_or(0), "known to differ"),
       some(counts.undecided, "undecided"), counts.non_finite, counts.errors, counts.missing,
-      counts.extra);
+      some(counts.misnamed.value_or(0), "misnamed"), counts.extra);
 }
 
 SetNotCompared not_compared(const SetReport& report) {
@@ -166,8 +169,8 @@ SetNotCompared not_compared(const SetReport& report) {
 ExitCode set_exit_code(const SetReport& report) {
   const records::SetSummary counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  const std::size_t failures =
-      counts.differs + counts.non_finite + counts.missing + counts.links_not_followed;
+  const std::size_t failures = counts.differs + counts.non_finite + counts.missing +
+                               counts.links_not_followed + counts.misnamed.value_or(0);
   return failures > 0           ? ExitCode::kDiffers
          : counts.undecided > 0 ? ExitCode::kUndecided
                                 : ExitCode::kSuccess;
@@ -298,6 +301,7 @@ records::ComparisonSet set_record(const SetReport& report) {
   record.missing = report.missing;
   record.extra = report.extra;
   record.links_not_followed = report.not_followed;
+  record.misnamed = report.misnamed;
   for (const PairReport& pair : report.pairs) {
     records::PairOfSet& one = record.pairs.emplace_back();
     one.name = pair.name;

@@ -32,11 +32,15 @@ struct SetReport {
   std::vector<std::string> extra;              ///< names without a reference
   std::size_t passed_over = 0;                 ///< files that are not pictures
   std::vector<std::string> not_followed = {};  ///< links to folders that may hold pictures
+  std::vector<std::string> misnamed = {};      ///< files that nearly are frames of a sequence
 };
 
 /// The reason that such a link fails.
 inline constexpr std::string_view kNotFollowed =
     "a link to a folder elsewhere; its pictures were not compared";
+/// The reason that such a file fails.
+inline constexpr std::string_view kMisnamed =
+    "nearly a frame of the sequence, but written in another way; it was not compared";
 
 records::SetSummary count(const SetReport& report);
 
@@ -56,9 +60,9 @@ double excess(const PairReport& pair);
 /// "known until 2027-01-31: why", "known, but expired on 2026-01-31: why", or empty.
 std::string known_text(const PairReport& pair);
 
-/// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair differs or is missing, or a
-/// link was not followed. Otherwise kUndecided if a pair is. Otherwise kSuccess: names without a reference do not fail, and
-/// neither do pairs that are excused.
+/// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair differs or is missing, a
+/// link was not followed, or a file is misnamed. Otherwise kUndecided if a pair is. Otherwise kSuccess: names without a
+/// reference do not fail, and neither do pairs that are excused.
 ExitCode set_exit_code(const SetReport& report);
 
 /// A metric over the pairs for which it was measured.

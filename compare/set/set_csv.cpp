@@ -53,6 +53,9 @@ std::string set_csv(const SetReport& report) {
     text += fmt::format("{},extra,there is no reference{}\r\n", field(name), no_values);
   for (const std::string& name : report.not_followed)
     text += fmt::format("{},not followed,{}{}\r\n", field(name), kNotFollowed, no_values);
+  for (const std::string& name : report.misnamed)
+    text +=
+        fmt::format("{},misnamed,{}{}\r\n", field(name), field(std::string(kMisnamed)), no_values);
   return text;
 }
 

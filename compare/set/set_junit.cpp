@@ -56,12 +56,12 @@ std::string set_junit(const SetReport& report, bool skip_undecided) {
   pugi::xml_document document;
   pugi::xml_node suites = document.append_child("testsuites");
   pugi::xml_node suite = suites.append_child("testsuite");
+  const std::size_t not_looked_at =
+      counts.missing + counts.links_not_followed + counts.misnamed.value_or(0);
   for (pugi::xml_node node : {suites, suite}) {
     node.append_attribute("name") = printable_path(report.a + " against " + report.b).c_str();
-    node.append_attribute("tests") =
-        report.pairs.size() + counts.missing + counts.extra + counts.links_not_followed;
-    node.append_attribute("failures") = counts.differs + counts.non_finite + counts.missing +
-                                        counts.links_not_followed +
+    node.append_attribute("tests") = report.pairs.size() + not_looked_at + counts.extra;
+    node.append_attribute("failures") = counts.differs + counts.non_finite + not_looked_at +
                                         (skip_undecided ? 0 : counts.undecided);
     node.append_attribute("errors") = counts.errors;
     node.append_attribute("skipped") =
@@ -75,6 +75,8 @@ std::string set_junit(const SetReport& report, bool skip_undecided) {
     add_outcome(add_case(suite, name, 0), "skipped", "extra", "there is no reference");
   for (const std::string& name : report.not_followed)
     add_outcome(add_case(suite, name, 0), "failure", "not followed", std::string(kNotFollowed));
+  for (const std::string& name : report.misnamed)
+    add_outcome(add_case(suite, name, 0), "failure", "misnamed", std::string(kMisnamed));
   std::ostringstream stream;
   document.save(stream, "  ");
   return stream.str();

@@ -274,7 +274,8 @@ class ComparisonSet(Record):
     """The record of a set of pairs, with a verdict over all of them.
 
     Each of `pairs` has its name and its comparison. `missing` are references without a picture, which fail; `extra` are
-    pictures without a reference, which do not.
+    pictures without a reference, which do not. `misnamed`, if there are any, are files that nearly are frames of a
+    sequence; they fail.
     """
 
     def __init__(self, compared: _lobelia.ComparedSet) -> None:
@@ -283,7 +284,7 @@ class ComparisonSet(Record):
 
     @property
     def passed(self) -> bool:
-        """Whether every pair passes or is known to differ, and no picture is missing."""
+        """Whether every pair passes or is known to differ, and no picture is missing or misnamed."""
         return self._compared.passed
 
     def __bool__(self) -> bool:

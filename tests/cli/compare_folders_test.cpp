@@ -291,6 +291,15 @@ TEST_F(CompareFolders, FailForLinksToFoldersElsewhereWhichAreNotFollowed) {
   EXPECT_EQ(json("set.json")["linksNotFollowed"], Record({"a/far", "b/far"}));
 }
 
+TEST_F(CompareFolders, AFrameWithItsNumberWrittenInAnotherWayFailsASequence) {
+  for (const char* frame : {"a/f.1.exr", "b/f.1.exr", "a/f.02.exr", "b/f.-3.exr"}) put(frame, 0.1f);
+  const auto result = compare({"a/f.%d.exr", "b/f.%d.exr", "--json", "set.json"});
+  EXPECT_EQ(result.exit_code, 1) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("misnamed    a/f.02.exr: nearly a frame"));
+  EXPECT_THAT(result.output_tail, HasSubstr("1 pairs: 1 pass"));
+  EXPECT_EQ(json("set.json")["misnamed"], Record({"a/f.02.exr", "b/f.-3.exr"}));
+}
+
 TEST_F(CompareFolders, PrintOneReportToStdoutInPlaceOfTheTable) {
   put("a/x.exr", 0.1f), put("b/x.exr", 0.1f);
   const auto printed = [&](const char* option) {

@@ -252,12 +252,38 @@ TEST_F(SequencePairing, IsByTheNumberHoweverItIsWritten) {
   EXPECT_THAT(in_words(pairing).both, ElementsAre("00001", "00010", "12345"));
   EXPECT_THAT(in_words(pairing).extra, ElementsAre("00002"));
   EXPECT_THAT(in_words(pairing).missing, ElementsAre("00003")) << "g03 is not how %d writes three";
+  EXPECT_THAT(pairing.misnamed, ElementsAre((folder_.path() / "b/g03.png").string()));
   frames.given[0] = (folder_.path() / "a/f.####.exr").string();
   EXPECT_EQ(pair_pictures(frames).rows.size(), pairing.rows.size());
   frames.given[0] = (folder_.path() / "a/h.%04d.exr").string();
   EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("no file is a frame of this sequence"));
   frames.given[0] = (folder_.path() / "a/f.0001.exr").string();
   EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("sequences with sequences"));
+}
+
+TEST_F(SequencePairing, NamesFilesThatNearlyAreFramesAndNoOthers) {
+  for (const char* file : {"a/f.0001.exr", "b/f.0001.exr", "a/f.1.exr", "a/f.-001.exr",
+                           "a/f.00002.exr", "a/f.0001.5.exr", "a/f.0003.EXR", "b/F.+0004.exr"})
+    put(file);
+  for (const char* other : {"a/f..exr", "a/f.x.exr", "a/f.2.0001.exr", "a/f.0001_old.exr",
+                            "a/f.0001.exr.txt", "a/f.0001.png", "a/g.1.exr", "b/f.-.exr"})
+    put(other);
+  PairingChoice frames = choice();
+  for (std::string& given : frames.given) given += "/f.%04d.exr";
+  const Pairing pairing = pair_pictures(frames);
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("0001"));
+  std::vector<std::string> names;
+  for (const std::string& file : pairing.misnamed)
+    names.push_back(fs::path(file).lexically_relative(folder_.path()).string());
+  EXPECT_THAT(names, ElementsAre("a/f.-001.exr", "a/f.00002.exr", "a/f.0001.5.exr", "a/f.0003.EXR",
+                                 "a/f.1.exr", "b/F.+0004.exr"));
+  // A frame of the other sequence is no near miss of this one.
+  frames.given = {(folder_.path() / "a/f.%04d.exr").string(),
+                  (folder_.path() / "a/f.%05d.exr").string()};
+  EXPECT_THAT(pair_pictures(frames).misnamed,
+              ::testing::Not(::testing::Contains(HasSubstr("f.00002.exr"))));
+  frames.given[1] = (folder_.path() / "a/g.%03d.exr").string();
+  EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("a/g.1.exr nearly is one"));
 }
 
 TEST_F(SequencePairing, LeavesAFileAloneWhoseNameOnlyLooksLikeOne) {
@@ -338,6 +364,13 @@ TEST(SetExitCode, IsOfTheWorstThatHappened) {
   report.missing.clear();
   report.not_followed = {"a/out"};
   EXPECT_EQ(set_exit_code(report), ExitCode::kDiffers) << "nobody looked at what is in there";
+  report.not_followed.clear();
+  report.misnamed = {"a/f.01.exr"};
+  EXPECT_EQ(set_exit_code(report), ExitCode::kDiffers) << "nobody compared it";
+  EXPECT_EQ(as_json(set_record(report))["misnamed"], Json({"a/f.01.exr"}));
+  EXPECT_THAT(counts_text(report), HasSubstr("0 missing, 1 misnamed, 1 extra"));
+  EXPECT_THAT(set_csv(report), HasSubstr("\r\na/f.01.exr,misnamed,\"nearly a frame"));
+  EXPECT_THAT(set_junit(report, false), HasSubstr("tests=\"3\" failures=\"1\""));
 }
 
 TEST(SetSummary, NamesThePairThatIsWorstByTheDirectionOfTheMetric) {
