@@ -300,12 +300,12 @@ fs::path index_of(const HtmlReport& html) {
 void require_place(const HtmlReport& html) {
   const fs::path index = index_of(html);
   if (index.has_parent_path()) make_directories(index.parent_path());
-  std::error_code unknown;
-  if (!html.single_file && fs::exists(index, unknown) &&
-      gallery::kind_of_site(html.path) != gallery::SiteKind::kReport)
-    throw Error(ExitCode::kOutput, fmt::format("{}: is there already, and not of a report; choose "
-                                               "another folder",
-                                               printable_path(index.string())));
+  if (!html.single_file && gallery::kind_of_site(html.path) != gallery::SiteKind::kReport)
+    for (const fs::path& file : {index, html.path / gallery::kSiteList})
+      if (file_type_at(file, ExitCode::kOutput) != fs::file_type::not_found)
+        throw Error(ExitCode::kOutput,
+                    fmt::format("{}: is there already, and not of a report; choose another folder",
+                                printable_path(file.string())));
   require_writable(index);
 }
 

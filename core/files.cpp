@@ -108,6 +108,34 @@ std::string read_file(const InputFile& file, std::uint64_t max_bytes) {
   return text;
 }
 
+fs::file_type file_type_at(const fs::path& path, ExitCode otherwise) {
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  if (type == fs::file_type::none)
+    throw failure_of(path.string() + ": cannot read", error.value(), otherwise);
+  return type;
+}
+
+fs::path real_path(const fs::path& path, ExitCode otherwise) {
+  std::error_code error;
+  fs::path real = fs::absolute(path, error);
+  if (!error) real = fs::weakly_canonical(real, error);
+  if (error)
+    throw failure_of(path.string() + ": cannot tell where it is", error.value(), otherwise);
+  return real;
+}
+
+std::vector<fs::path> regular_files_below(const fs::path& directory) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(directory, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error))
+    if (file_type_at(entry->path()) == fs::file_type::regular) files.push_back(entry->path());
+  if (error)
+    throw failure_of(directory.string() + ": cannot be listed", error.value(), ExitCode::kInput);
+  return files;
+}
+
 PartFile::PartFile(const fs::path& path, AtLink at_link)
     : path_(path), target_(final_target(path, at_link)), part_([&] {
         while (true) {
@@ -144,6 +172,20 @@ void PartFile::append(std::span<const std::uint8_t> bytes) {
 
 void PartFile::append(std::string_view text) {
   append(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+void PartFile::append_file(const fs::path& path) {
+  const InputFile from(path);
+  std::vector<std::uint8_t> piece(std::size_t{1} << 18);
+  for (std::size_t done = 0;;) {
+    throw_if_interrupted();
+    const std::size_t n = read_at(from.descriptor(), piece.data(), piece.size(), done);
+    if (n < piece.size() && errno != 0)
+      throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
+    append(std::span(piece).first(n));
+    if (n < piece.size()) return;
+    done += n;
+  }
 }
 
 void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes) {
@@ -238,7 +280,9 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
-  const fs::path part = part_path(final_target(path, AtLink::kFollow));
+  const fs::path target = final_target(path, AtLink::kFollow);
+  remove_abandoned_parts(HeldDirectory(target.parent_path()), target.filename().string());
+  const fs::path part = part_path(target);
   // A file without a name need not be removed. Where there is none, or the directory or the name is wrong, one with a
   // name is tried. (In a removed directory of tmpfs the first can be made and the second cannot.)
   const fs::path here = part.parent_path() / ".";
@@ -264,16 +308,15 @@ void make_directories(const fs::path& path) {
                 fmt::format("{}: cannot make the directory: {}", path.string(), error.message()));
 }
 
-TemporaryDirectory::TemporaryDirectory()
-    : TemporaryDirectory([] {
-        std::error_code error;
-        fs::path parent = fs::temp_directory_path(error);
-        if (error)
-          throw Error(
-              ExitCode::kOutput,
-              fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
-        return parent;
-      }()) {}
+fs::path place_for_temporaries() {
+  std::error_code error;
+  fs::path place = fs::temp_directory_path(error);
+  if (error)
+    throw failure_of("$TMPDIR: no directory for temporary files", error.value(), ExitCode::kOutput);
+  return place;
+}
+
+TemporaryDirectory::TemporaryDirectory() : TemporaryDirectory(place_for_temporaries()) {}
 
 TemporaryDirectory::TemporaryDirectory(const fs::path& parent)
     : path_([&] {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
+#include "core/error.hpp"
 #include "core/interrupt.hpp"
 
 namespace lobelia {
@@ -47,6 +48,18 @@ inline constexpr std::size_t kBytesBetweenLooks = std::size_t{16} << 20;
 /// As read_at(), for files of others, which may be large. Throws Error(kInterrupted) if interrupted().
 std::size_t read_in_pieces(int file, void* target, std::size_t size, std::size_t offset = 0);
 
+/// What is at `path`, behind all links; not_found if nothing is. Throws an error of the code `otherwise` where the system
+/// cannot tell, as on a fault of the disk or in a folder that may not be searched.
+std::filesystem::file_type file_type_at(const std::filesystem::path& path,
+                                        ExitCode otherwise = ExitCode::kInput);
+
+/// `path` as an absolute path without links, as far as it exists. Throws as file_type_at().
+std::filesystem::path real_path(const std::filesystem::path& path,
+                                ExitCode otherwise = ExitCode::kInput);
+
+/// All regular files below `directory`, in no order. Throws Error(kInput) if a part of it cannot be listed.
+std::vector<std::filesystem::path> regular_files_below(const std::filesystem::path& directory);
+
 /// What a write replaces where its path is a symbolic link.
 enum class AtLink {
   kFollow,  ///< the file that the link leads to: for paths that a user chose
@@ -69,6 +82,8 @@ class PartFile {
   ~PartFile();
   void append(std::span<const std::uint8_t> bytes);
   void append(std::string_view text);
+  /// Appends the content of another file. Throws Error(kInput) if that cannot be read.
+  void append_file(const std::filesystem::path& file);
   /// Overwrites bytes that are there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
@@ -119,11 +134,15 @@ class FilesTogether {
   std::vector<PartFile> finished_;
 };
 
-/// Throws Error(kOutput) unless a file can be created at `path`. For before long work starts.
+/// Throws Error(kOutput) unless a file can be created at `path`. For before long work starts. Removes what killed runs left of
+/// such a file.
 void require_writable(const std::filesystem::path& path);
 
 /// As create_directories, but throws Error(kOutput).
 void make_directories(const std::filesystem::path& path);
+
+/// $TMPDIR, or else /tmp. Throws Error(kOutput) if that is no directory.
+std::filesystem::path place_for_temporaries();
 
 /// A directory that is removed with everything in it when this object goes.
 class TemporaryDirectory {

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -61,6 +62,40 @@ Error failure_of(const std::string& what, int error, ExitCode otherwise) {
 
 Error failure_of(const std::string& what, const std::exception& error, ExitCode otherwise) {
   return failure_of(what, lacking(error), error.what(), otherwise);
+}
+
+bool tells_of_file(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+    case EACCES:
+    case EPERM:
+    case ELOOP:
+    case ENAMETOOLONG:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Error as_error(const std::exception& error) {
+  const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  if (!of_file) {
+    const std::string lack = lacking(error);
+    return lack.empty()
+               ? Error(ExitCode::kInternal, fmt::format("internal error: {}", error.what()))
+               : Error(ExitCode::kNoResources, lack);
+  }
+  // "filesystem error: WHAT: WHY [PATH]"
+  constexpr std::string_view kPrefix = "filesystem error: ";
+  std::string_view what = error.what();
+  if (what.starts_with(kPrefix)) what.remove_prefix(kPrefix.size());
+  what = what.substr(0, what.find(": " + of_file->code().message()));
+  const std::string path = of_file->path1().string();
+  const int number = of_file->code().value();
+  const bool is_output = number == ENOSPC || number == EDQUOT || number == EROFS;
+  return failure_of(fmt::format("{}{}{}", path, path.empty() ? "" : ": ", what), number,
+                    is_output ? ExitCode::kOutput : ExitCode::kInput);
 }
 
 }  // namespace lobelia

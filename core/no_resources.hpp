@@ -1,4 +1,4 @@
-// Errors for lack of memory, threads, processes or open files, with the limit to raise.
+// Errors of the system: lack of memory, threads, processes or open files, with the limit to raise; faults of disks.
 #pragma once
 
 #include <exception>
@@ -18,5 +18,13 @@ Error failure_of(const std::string& what, int error, ExitCode otherwise);
 /// The same for an exception of a library: std::bad_alloc, or a message about memory or threads.
 std::string lacking(const std::exception& error);
 Error failure_of(const std::string& what, const std::exception& error, ExitCode otherwise);
+
+/// Whether an errno tells how a file is: missing, not allowed, behind a circle of links. Any other, such as EIO, ESTALE or
+/// EINTR, says that the system could not look, so nothing is known of the file.
+bool tells_of_file(int error);
+
+/// For an exception that nothing expects. kNoResources if lacking(). Where std::filesystem failed, "PATH: WHAT: WHY" with
+/// kInput, or kOutput if there is no room or nothing may be written. Otherwise kInternal.
+Error as_error(const std::exception& error);
 
 }  // namespace lobelia

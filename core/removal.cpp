@@ -11,8 +11,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <random>
@@ -95,6 +97,30 @@ Removal removal_of_temporary(const fs::path& path) {
                                       [name = path.filename()](const fs::path& relative) {
                                         return relative == name ? Owned::kTree : Owned::kNo;
                                       }});
+}
+
+/// 31 random bits, which tell this process from another one with its PID.
+long long number_of_process() {
+  static const long long number = std::random_device()() >> 1;
+  return number;
+}
+
+struct PartName {
+  std::string_view of;    ///< the name of the finished file
+  long long process = 0;  ///< 0: no name of part_path()
+  long long number = 0;
+};
+
+PartName part_name(std::string_view name) {
+  if (!name.starts_with('.') || !name.ends_with(".part")) return {};
+  name.remove_suffix(5);
+  const auto dash = name.rfind('-'), dot = name.rfind('.', dash);
+  if (dash == name.npos || dot == name.npos || dot == 0) return {};
+  PartName part{name.substr(1, dot - 1)};
+  const bool is_one = parse_integer(name.substr(dot + 1, dash - dot - 1), part.process) &&
+                      part.process > 0 && parse_integer(name.substr(dash + 1), part.number) &&
+                      part.number >= 0;
+  return is_one ? part : PartName{};
 }
 
 }  // namespace
@@ -305,21 +331,14 @@ bool Removal::remove_from(const HeldDirectory& parent, const std::string& name,
 }
 
 fs::path part_path(const fs::path& path) {
-  static thread_local std::random_device device;
-  return path.parent_path() /
-         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
+  static std::atomic<std::uint32_t> count = 0;
+  return path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(),
+                                          number_of_process() << 32 | count++);
 }
 
-long long process_of_part(std::string_view name) {
-  if (!name.starts_with('.') || !name.ends_with(".part")) return 0;
-  name.remove_suffix(5);
-  const auto dash = name.rfind('-'), dot = name.rfind('.', dash);
-  if (dash == name.npos || dot == name.npos || dot == 0) return 0;
-  long long process = 0, number = 0;
-  return parse_integer(name.substr(dot + 1, dash - dot - 1), process) && process > 0 &&
-                 parse_integer(name.substr(dash + 1), number) && number >= 0
-             ? process
-             : 0;
+long long process_of_part(std::string_view name, std::string_view of) {
+  const PartName part = part_name(name);
+  return of.empty() || part.of == of ? part.process : 0;
 }
 
 bool is_part_name(std::string_view name) { return process_of_part(name) > 0; }
@@ -334,8 +353,13 @@ void remove_part(const fs::path& path) try {
 }
 
 Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string& name) {
-  const auto process = pid_t(process_of_part(name));
-  if (process == 0 || ::kill(process, 0) == 0 || errno != ESRCH) return Descriptor();
+  const PartName part = part_name(name);
+  if (part.process == 0) return Descriptor();
+  // In a container the next command often has the PID of the one that was killed.
+  const bool may_run = part.process == ::getpid()
+                           ? part.number >> 32 == number_of_process()
+                           : ::kill(pid_t(part.process), 0) == 0 || errno != ESRCH;
+  if (may_run) return Descriptor();
   // No such process runs here. One on another machine would hold the lock.
   Descriptor file(
       ::openat(directory.fd(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
@@ -346,10 +370,12 @@ Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string
   return file;
 }
 
-void remove_abandoned_parts(const HeldDirectory& directory) {
-  for (const std::string& name : directory.names())
-    if (const Descriptor lock = lock_abandoned_part(directory, name))
-      ::unlinkat(directory.fd(), name.c_str(), 0);
+void remove_abandoned_parts(const HeldDirectory& directory, const std::string& name) {
+  for (const std::string& part : directory.names()) {
+    if (process_of_part(part, name) == 0) continue;
+    if (const Descriptor lock = lock_abandoned_part(directory, part))
+      ::unlinkat(directory.fd(), part.c_str(), 0);
+  }
 }
 
 bool remove_temporary(const fs::path& path) try {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <regex>
+#include <set>
 
 #include "core/for_each_whole.hpp"
 #include "core/interrupt.hpp"
@@ -242,7 +243,9 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
 fs::path write_report(const Report& report, const GalleryOptions& options) {
   check(options);
   const SiteFrame site{report.farm.record.title, "", {{"index.html", "Pairs"}}};
-  Publisher publisher(options.site);
+  std::set<std::string> own{"index.html"};
+  for (const auto& [name, text] : report.files) own.insert(name);
+  Publisher publisher(options.site, std::move(own));
   write_frame(publisher, site);
   for (const auto& [name, text] : report.files) publisher.write(name, text);
   const std::vector<CellSummary> summaries =

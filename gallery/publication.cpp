@@ -7,6 +7,8 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "gallery/publisher.hpp"
 #include "gallery/shown_farm.hpp"
@@ -39,18 +41,32 @@ bool is_our_page(const fs::path& path) {
   return begin.find(kSingleFileMark) != begin.npos;
 }
 
+/// A publication that was killed at its first file leaves that unfinished.
+bool is_empty_but_for_parts(const fs::path& directory) {
+  std::error_code error;
+  fs::directory_iterator entry(directory, error);
+  for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
+    if (!is_part_name(entry->path().filename().native())) return false;
+  return !error;
+}
+
 /// Refuses what is there and is not ours.
 void check_place(const fs::path& run, const fs::path& out, Form form) {
   std::error_code error;
-  const fs::path real_run = fs::canonical(run, error), real_out = fs::weakly_canonical(out, error);
+  const fs::path real_run = fs::canonical(run, error);
+  if (error && !tells_of_file(error.value()))
+    throw failure_of(run.string() + ": cannot read", error.value(), ExitCode::kInput);
+  const fs::path real_out = fs::weakly_canonical(out, error);
+  if (error) refuse(out, error.message());
   if (!real_run.empty() && std::ranges::mismatch(real_run, real_out).in1 == real_run.end())
     refuse(out, "is RUN or in it, which publishing must not change; give another name");
   const fs::file_status status = fs::symlink_status(out, error);
+  if (status.type() == fs::file_type::none) refuse(out, error.message());
   if (!fs::exists(status)) return;
   if (fs::is_symlink(status)) refuse(out, "is a link, which is not followed; give another name");
   const bool is_ours = form == Form::kFolder
                            ? fs::is_directory(status) && (kind_of_site(out) == SiteKind::kGallery ||
-                                                          fs::is_empty(out, error))
+                                                          is_empty_but_for_parts(out))
                            : fs::is_regular_file(status) &&
                                  (form == Form::kZip ? is_our_zip(out) : is_our_page(out));
   if (!is_ours)
@@ -63,16 +79,18 @@ void check_place(const fs::path& run, const fs::path& out, Form form) {
 fs::path without_slash(const fs::path& out) { return out.has_filename() ? out : out.parent_path(); }
 
 PublishedGallery write_folder(const fs::path& run, GalleryOptions options, const fs::path& out) {
-  std::error_code error;
-  if (fs::exists(out, error)) return write_gallery(run, options);
+  if (file_type_at(out, ExitCode::kOutput) != fs::file_type::not_found)
+    return write_gallery(run, options);
   const fs::path parent = out.has_parent_path() ? out.parent_path() : fs::path(".");
   make_directories(parent);
+  remove_dead_temporaries(parent);
   const TemporaryDirectory unfinished(parent);
   options.is_part = true;
   options.site = unfinished.path() / "site";
   PublishedGallery made = write_gallery(run, options);
   const EndDelay delay;
   throw_if_interrupted();
+  std::error_code error;
   fs::rename(options.site, out, error);
   if (error) refuse(out, error.message());
   interrupts_come_too_late();

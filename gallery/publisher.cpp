@@ -5,12 +5,11 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <ranges>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "records/farm.hpp"
@@ -25,30 +24,6 @@ bool is_path_of_plain_names(const std::string& name) {
   return !name.empty() && std::ranges::all_of(std::views::split(name, '/'), [](const auto& part) {
     return is_plain_name({part.begin(), part.end()});
   });
-}
-
-/// Lets `make` write a file under a temporary name, then renames it. It is not flushed to the disk as records are: there
-/// are tens of thousands, and a site that a crash has damaged can be published again.
-void place(const fs::path& site, const std::string& file,
-           const std::function<bool(const fs::path&)>& make) {
-  const fs::path path = site / file;
-  // Links are refused: a link below the site may lead out of it.
-  HeldDirectory held(site);
-  for (const fs::path& name : fs::path(file).parent_path())
-    held = held.make_below(name.string(), HeldDirectory::Border::kCross);
-  std::error_code error;
-  const TemporaryPath part([&] {
-    fs::path name = part_path(path);
-    std::ofstream created(name);
-    return name;
-  });
-  errno = 0;
-  const bool made = make(part.path());
-  if (!made) error = std::error_code(errno ? errno : EIO, std::generic_category());
-  if (made) fs::rename(part.path(), path, error);
-  if (!error) return;
-  remove_part(part.path());
-  throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), error.message()));
 }
 
 /// Whether `path` is in `directory` after following all links.
@@ -88,10 +63,10 @@ std::optional<SiteKind> kind_of_site(const fs::path& directory) {
   }
 }
 
-Publisher::Publisher(fs::path site) : site_(std::move(site)) {
+Publisher::Publisher(fs::path site, std::set<std::string> own)
+    : site_(std::move(site)), own_(std::move(own)) {
   make_directories(site_);
-  std::error_code ignored;
-  if (!fs::exists(site_ / kSiteList, ignored)) return;
+  if (file_type_at(site_ / kSiteList, ExitCode::kOutput) == fs::file_type::not_found) return;
   try {
     const auto list = records::read_record<records::GalleryList>(site_ / kSiteList);
     for (const std::string& name : list.files)
@@ -102,9 +77,45 @@ Publisher::Publisher(fs::path site) : site_(std::move(site)) {
   }
 }
 
+/// Lets `fill` write a file, which then gets its name. It is not flushed to the disk as records are: there are tens of
+/// thousands, and a site that a crash has damaged can be published again.
+void Publisher::place(const std::string& name, const std::function<void(PartFile&)>& fill) {
+  std::call_once(begun_, [&] {
+    std::set<std::string> files = earlier_;
+    files.insert(own_.begin(), own_.end());
+    // Without keys: a derived file that this publication changes is no longer what its key says.
+    write_list(files, {});
+  });
+  // Links are refused: a link below the site may lead out of it.
+  HeldDirectory held(site_);
+  for (const fs::path& folder : fs::path(name).parent_path())
+    held = held.make_below(folder.string(), HeldDirectory::Border::kCross);
+  const FlushLater later;
+  PartFile file(site_ / name, AtLink::kReplace);
+  fill(file);
+  file.finish();
+}
+
+void Publisher::write_list(const std::set<std::string>& files,
+                           const std::map<std::string, std::string>& keys) const {
+  const std::string text = records::record_text(
+      records::GalleryList{{files.begin(), files.end()}, {keys.begin(), keys.end()}});
+  if (!is_same_text(site_ / kSiteList, text)) write_file(site_ / kSiteList, text);
+}
+
 void Publisher::add_to_list(const std::string& name) {
   const std::scoped_lock lock(mutex_);
   files_.insert(name);
+  clean(fs::path(name).parent_path());
+}
+
+/// Removes from a directory of the site what killed publications left there.
+void Publisher::clean(const fs::path& directory) {
+  if (!cleaned_.insert(directory).second) return;
+  HeldDirectory held(site_);
+  for (const fs::path& folder : directory)
+    held = held.below(folder.string(), HeldDirectory::Border::kCross);
+  remove_abandoned_parts(held);
 }
 
 void Publisher::write(const std::string& name, std::string_view content) {
@@ -112,11 +123,7 @@ void Publisher::write(const std::string& name, std::string_view content) {
   throw_if_interrupted();
   add_to_list(name);
   if (is_same_text(site_ / name, content)) return;
-  place(site_, name, [&](const fs::path& part) {
-    std::ofstream out(part, std::ios::binary);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    return bool(out.flush());
-  });
+  place(name, [&](PartFile& file) { file.append(content); });
 }
 
 void Publisher::copy(const fs::path& run, const std::string& name) {
@@ -130,15 +137,15 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
     if (const auto scrubbed = scrub_->file(from)) return write(name, *scrubbed);
   add_to_list(name);
   const auto time = fs::last_write_time(from, error);
-  if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&
+  if (error) throw failure_of(from.string() + ": cannot read", error.value(), ExitCode::kInput);
+  if (fs::file_size(from, error) == fs::file_size(to, error) && !error &&
       fs::last_write_time(to, error) == time && !error)
     return;
-  place(site_, name, [&](const fs::path& part) {
+  place(name, [&](PartFile& file) {
+    file.append_file(from);
     std::error_code failed;
-    fs::copy_file(from, part, fs::copy_options::overwrite_existing, failed);
-    if (!failed) fs::last_write_time(part, time, failed);
-    errno = failed.value();
-    return !failed;
+    fs::last_write_time(file.part(), time, failed);
+    if (failed) throw failure_of(to.string() + ": cannot write", failed.value(), ExitCode::kOutput);
   });
 }
 
@@ -164,6 +171,7 @@ void Publisher::remove_stale() {
   for (const std::string& name : earlier_)
     for (fs::path up = fs::path(name).parent_path(); !up.empty(); up = up.parent_path())
       directories.insert(up);
+  for (const fs::path& directory : directories) clean(directory);
   Removal removal(site_, {[](const HeldDirectory& site) {
                             struct stat status {};
                             return ::fstatat(site.fd(), kSiteList, &status, AT_SYMLINK_NOFOLLOW) ==
@@ -185,9 +193,7 @@ void Publisher::remove_stale() {
 
 void Publisher::finish() {
   remove_stale();
-  const std::string text = records::record_text(
-      records::GalleryList{{files_.begin(), files_.end()}, {keys_.begin(), keys_.end()}});
-  if (!is_same_text(site_ / kSiteList, text)) write_file(site_ / kSiteList, text);
+  write_list(files_, keys_);
 }
 
 }  // namespace lobelia::gallery

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/module.hpp"
+#include "core/removal.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -46,15 +48,19 @@ constexpr int kBestCompression = 9;
 
 void write_zip(const fs::path& directory, const std::string& top, const fs::path& path) {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory))
-    if (entry.is_regular_file())
-      names.push_back(entry.path().lexically_relative(directory).generic_string());
+  for (const fs::path& file : regular_files_below(directory))
+    names.push_back(file.lexically_relative(directory).generic_string());
   std::ranges::sort(names);
 
+  // In a directory of ours, because nobody would know again what a killed libzip leaves beside its file.
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  remove_dead_temporaries(parent);
+  const TemporaryDirectory unfinished(parent);
+  const fs::path made = unfinished.path() / "zip";
   int problem = 0;
   const auto discard = [](zip_t* open) { zip_discard(open); };
   std::unique_ptr<zip_t, decltype(discard)> zip(
-      zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &problem), discard);
+      zip_open(made.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &problem), discard);
   if (!zip) {
     zip_error_t error;
     zip_error_init_with_code(&error, problem);
@@ -80,11 +86,15 @@ void write_zip(const fs::path& directory, const std::string& top, const fs::path
   check(zip_set_archive_comment(zip.get(), kComment.data(), zip_uint16_t(kComment.size())) == 0);
   zip_register_cancel_callback_with_state(
       zip.get(), [](zip_t*, void*) { return int(interrupted()); }, nullptr, nullptr);
-  // Writes it beside `path`, and renames it.
   const bool is_written = zip_close(zip.get()) == 0;
   if (!is_written) throw_if_interrupted();
   check(is_written);
   (void)zip.release();
+  const EndDelay delay;
+  throw_if_interrupted();
+  std::error_code error;
+  fs::rename(made, path, error);
+  if (error) fail_to_zip(path, error.message().c_str());
 }
 
 bool is_our_zip(const fs::path& path) {

@@ -172,6 +172,20 @@ TEST(PartFile, HoldsWhatWasAppendedAndOverwrittenInPiecesOfAnySize) {
   }
 }
 
+TEST(PartFile, TakesTheContentOfAnotherFile) {
+  const TemporaryDirectory directory;
+  const std::string text(600'000, 'x');
+  write_file(directory.path() / "from", text);
+  PartFile part(directory.path() / "to");
+  part.append("before ");
+  part.append_file(directory.path() / "from");
+  EXPECT_EQ(code_of([&] { part.append_file(directory.path() / "gone"); }), ExitCode::kInput);
+  EXPECT_EQ(code_of([&] { part.append_file(directory.path()); }), ExitCode::kInput);
+  part.append(" after");
+  part.finish();
+  EXPECT_EQ(read_file(directory.path() / "to", 1'000'000), "before " + text + " after");
+}
+
 TEST(WriteFile, ThatDoesNotFitLeavesTheOldFileAndNoPart) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";
@@ -211,11 +225,18 @@ TEST(AbandonedFiles, GoIfTheirProcessIsGoneAndStayIfItLives) {
   int status = 0;
   ::waitpid(child, &status, 0);
   const auto dead = directory.path() / fmt::format(".a.exr.{}-0.part", child);
-  const auto alive = directory.path() / fmt::format(".a.exr.{}-0.part", ::getpid());
+  const auto earlier = directory.path() / fmt::format(".a.exr.{}-0.part", ::getpid());
+  const auto alive = part_path(directory.path() / "a.exr");
   const auto foreign = directory.path() / ".notes.part";
-  for (const auto& path : {dead, alive, foreign}) write_file(path, "x");
+  for (const auto& path : {dead, earlier, alive, foreign}) write_file(path, "x");
+  const auto other = directory.path() / fmt::format(".b.a.exr.{}-0.part", child);
+  write_file(other, "x");
+  require_writable(directory.path() / "a.exr");
+  EXPECT_FALSE(fs::exists(dead)) << "before the file is written again";
+  EXPECT_FALSE(fs::exists(earlier)) << "of an earlier process with our PID, as in a container";
+  EXPECT_TRUE(fs::exists(other)) << "of another file";
   remove_abandoned_parts(HeldDirectory(directory.path()));
-  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_FALSE(fs::exists(other));
   EXPECT_TRUE(fs::exists(alive));
   EXPECT_TRUE(fs::exists(foreign));
 }

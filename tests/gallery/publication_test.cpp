@@ -1,10 +1,14 @@
 // A gallery for others tells nothing of the machine, in any form, and RUN stays as it is.
 #include "gallery/publication.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <fstream>
+#include <set>
 
 #include "core/base64.hpp"
 #include "core/error.hpp"
@@ -276,6 +280,49 @@ TEST(Publication, refuses_what_is_not_its_own) {
   EXPECT_EQ(content(place.path() / "photos/gallery.json"), R"({"photos":[]})");
   for (const char* name : {"index.html", "site", "site.zip", "cells/new.html"})
     EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
+}
+
+TEST(Publication, that_was_killed_is_known_again_and_its_unfinished_files_go) {
+  const TemporaryDirectory place;
+  const fs::path site = place.path() / "site", empty = place.path() / "empty";
+  const std::set<std::string> own{"index.html", "comparison.json"};
+  Publisher(site, own).write("comparison.json", "{}");  // and no further
+  EXPECT_EQ(kind_of_site(site), SiteKind::kReport);
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  const auto unfinished = [&](const char* name) {
+    return fmt::format(".{}.{}-1.part", name, child);
+  };
+  fs::create_directories(site / "cells/a");
+  fs::create_directories(empty);
+  for (const fs::path& part : {site / unfinished("index.html"),
+                               site / "cells/a" / unfinished("a.png"), empty / unfinished("x")})
+    write_file(part, std::string_view("half"));
+  Publisher again(site, own);
+  for (const char* name : {"comparison.json", "index.html", "cells/a/index.html"})
+    again.write(name, name);
+  again.finish();
+  EXPECT_EQ(files_below(site).size(), 4u) << "with the list";
+  const FakeFarm farm;
+  GalleryOptions options;
+  options.site = empty;
+  write_publication(farm.directory(), options);
+  EXPECT_FALSE(fs::exists(empty / unfinished("x")));
+}
+
+TEST(Publication, that_was_killed_leaves_no_key_of_a_file_that_it_made_anew) {
+  const TemporaryDirectory place;
+  const auto publish = [&](const char* key, bool to_the_end) {
+    Publisher publisher(place.path() / "site");
+    publisher.write("index.html", "index");
+    publisher.derive("derived", key, [&] { return std::string(key); });
+    if (to_the_end) publisher.finish();
+  };
+  publish("one", true);
+  publish("two", false);
+  publish("one", true);
+  EXPECT_EQ(content(place.path() / "site/derived"), "one");
 }
 
 TEST(Publication, in_a_zip_has_plain_names_whatever_the_zip_is_called) {
