@@ -33,14 +33,13 @@ void add_inputs(const CompareArguments& options, const Pairing& pairing, OutputF
 
 /// Throws Error(kUsage) if a folder that is written lies in one that is read: the next run would compare its pictures.
 void require_outside(std::string_view option, const fs::path& directory, const CompareJob& job) {
-  std::error_code unknown;
-  const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
+  const fs::path real = real_path(directory, ExitCode::kOutput);
   std::vector<fs::path> folders = job.noise.files("");
   for (const auto* given : {&job.pictures.given, &job.pictures.also_accepted})
     folders.insert(folders.end(), given->begin(), given->end());
   if (!job.c.empty()) folders.emplace_back(job.c);
   for (const fs::path& folder : folders)
-    if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
+    if (!folder.empty() && is_below(real, real_path(folder)))
       throw Error(ExitCode::kUsage,
                   fmt::format("{} {}: lies in {}, which is read by this command; choose "
                               "a folder outside it",

@@ -2,6 +2,8 @@
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/publish.hpp"
+#include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/removal.hpp"
 #include "farm/slurm/doctor.hpp"
 
@@ -87,11 +89,11 @@ void add_doctor(CLI::App& farm, ExitCode& exit_code) {
       "Exit codes: 0 a grid would run, 1 it would not.");
   command->callback([options, &exit_code] {
     if (options->clean) {
-      const auto removed = remove_dead_temporaries(std::filesystem::temp_directory_path());
+      const auto removed = remove_dead_temporaries(place_for_temporaries());
       for (const auto& path : removed) fmt::print("removed {}\n", printable_path(path.string()));
       fmt::print("{} temporary directories of killed programs removed\n", removed.size());
     }
-    options->doctor.program = own_program();
+    options->doctor.program = program_file();
     fmt::print("{}", doctor_text(look_at_machine()));
     if (options->doctor.directory.empty()) return;
     const auto checks = doctor(options->doctor);

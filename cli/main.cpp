@@ -250,8 +250,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     // fmt::print throws where more than a buffer could not be written.
     if (std::ferror(stdout)) return cli::stdout_failed();
-    if (const std::string lack = lacking(error); !lack.empty())
-      return cli::fail(ExitCode::kNoResources, lack);
-    return cli::fail(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
+    const Error known = as_error(error);
+    return cli::fail(known.code(), known.lines());
   }
 }

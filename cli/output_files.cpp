@@ -3,22 +3,27 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <optional>
 
 #include "cli/messages.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/no_resources.hpp"
 
 namespace lobelia::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The same for all paths and links to a file.
+/// The same for all paths and links to a file. Nothing if there is none, or if it cannot be reached. Throws Error(kInput)
+/// where the system cannot tell, because a file that is read could then be written over.
 std::optional<std::pair<dev_t, ino_t>> file_id(const fs::path& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return std::pair(status.st_dev, status.st_ino);
+  if (::stat(path.c_str(), &status) == 0) return std::pair(status.st_dev, status.st_ino);
+  if (!tells_of_file(errno))
+    throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
+  return std::nullopt;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ inline constexpr std::string_view kStdout = "-";
 
 class OutputFiles {
  public:
-  /// A file that the command reads. May be missing.
+  /// A file that the command reads. May be missing. Throws Error(kInput) if the system cannot tell which file it is.
   void reads(const std::filesystem::path& file);
   /// Throws Error(kUsage) if the file is read, also through a link, or written already.
   void writes(const std::filesystem::path& file);

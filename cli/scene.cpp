@@ -52,8 +52,10 @@ void write_texts(const std::map<std::string, std::string>& texts, const SceneFor
     return;
   }
   const fs::path output = options.output, from = directory_of(options.scene);
-  const bool is_directory = texts.size() > 1 || fs::is_directory(output) || !output.has_filename();
-  if (is_directory && fs::exists(output) && !fs::is_directory(output))
+  const fs::file_type there = file_type_at(output, ExitCode::kOutput);
+  const bool is_directory =
+      texts.size() > 1 || there == fs::file_type::directory || !output.has_filename();
+  if (is_directory && there != fs::file_type::not_found && there != fs::file_type::directory)
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: {} takes {} files, and this is no directory",
                             printable_path(options.output), format.title, texts.size()));

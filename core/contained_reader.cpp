@@ -40,7 +40,7 @@ constexpr int kNotLoaded = 127;        // exit code of the dynamic linker
 constexpr int kPollMilliseconds = 50;  // between looks for Ctrl-C
 
 [[noreturn]] void system_failure(const char* what, int error) {
-  throw failure_of(fmt::format("{}: {}", kReaderFile, what), error, ExitCode::kInternal);
+  throw failure_of(fmt::format("{}: {}", kReaderFile, what), error, ExitCode::kInput);
 }
 
 /// Waits until there is something to read or the other side is gone. Throws Error(kInterrupted).
@@ -103,10 +103,7 @@ class Reader {
                   .output = null.get()})
                .pid;
   }
-  ~Reader() {
-    ::kill(-pid_, SIGKILL);
-    status();
-  }
+  ~Reader() { end(); }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
@@ -128,9 +125,12 @@ class Reader {
     return ::sendmsg(socket_.get(), &message, MSG_NOSIGNAL) == ssize_t(request.size());
   }
 
-  /// Waits until the reader has ended. Returns its status, as of wait(2).
-  int status() {
-    if (!has_ended_) retried([&] { return ::waitpid(pid_, &status_, 0); });
+  /// Ends the reader. Returns its status, as of wait(2): of one that has ended by itself its own, also if it is not gone yet.
+  int end() {
+    if (!has_ended_) {
+      ::kill(-pid_, SIGKILL);
+      retried([&] { return ::waitpid(pid_, &status_, 0); });
+    }
     has_ended_ = true;
     return status_;
   }
@@ -238,6 +238,19 @@ Outcome receive_answer(int pipe) {
   return outcome;
 }
 
+/// `status` is the reader's, as of wait(2).
+[[noreturn]] void throw_failed_twice(const fs::path& picture, int status) {
+  const std::string program = companion_file(kReaderFile).string();
+  const bool exited = WIFEXITED(status);
+  const int code = exited ? WEXITSTATUS(status) : WTERMSIG(status);
+  if (exited && code == int(ExitCode::kInput))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: a library that it needs is missing or cannot be read", program));
+  throw Error(exited && code == int(ExitCode::kInternal) ? ExitCode::kInternal : ExitCode::kInput,
+              fmt::format("{}: failed twice to read {} ({} {})", program, picture.string(),
+                          exited ? "exit code" : "signal", code));
+}
+
 /// Empty if the decoder ended normally.
 std::string decoder_problem(const ReaderVerdict& verdict) {
   if (verdict.too_long) return "the decoder did not end; it was stopped";
@@ -295,7 +308,8 @@ Outcome ask(const PictureFile& file, const std::string& layer, bool names_only,
         unreadable_picture(path, why.empty() ? outcome.problem : why);
       }
     }
-    const int status = reader->status();
+    // It lives if it could not be reached, and would wait for ever.
+    const int status = reader->end();
     if (WIFEXITED(status) && WEXITSTATUS(status) == int(ExitCode::kNoResources))
       throw Error(ExitCode::kNoResources,
                   fmt::format("{}: not enough memory or processes (ulimit -v, -d or -u, cgroup "
@@ -306,9 +320,8 @@ Outcome ask(const PictureFile& file, const std::string& layer, bool names_only,
                   fmt::format("{}: cannot be loaded: a library is missing, or there is not enough "
                               "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
                               kReaderFile));
-    // A picture cannot end the reader itself, so it was killed while it waited. A second try gets a new one.
-    if (attempt == 1)
-      throw Error(ExitCode::kInternal, fmt::format("{} ends by itself", kReaderFile));
+    // A picture cannot end the reader itself, so it was killed, or the system failed it. A second try gets a new one.
+    if (attempt == 1) throw_failed_twice(path, status);
   }
 }
 

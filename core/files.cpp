@@ -67,9 +67,8 @@ InputFile::InputFile(const fs::path& path)
 }
 
 fs::path InputFile::real_path() const {
-  std::error_code error;
-  fs::path real = fs::canonical(path_, error);
-  if (error || !is_at(real, file_.get()))
+  fs::path real = lobelia::real_path(path_, ExitCode::kInput);
+  if (!is_at(real, file_.get()))
     throw Error(ExitCode::kInput,
                 fmt::format("{}: it was replaced while it was opened", path_.string()));
   return real;

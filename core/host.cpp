@@ -3,6 +3,7 @@
 #include <elf.h>
 #include <fmt/format.h>
 #include <link.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/no_resources.hpp"
 #include "core/sha256.hpp"
 
 namespace lobelia {
@@ -94,18 +96,35 @@ std::string find_build_id() {
   try {
     return hex(sha256_of_file(own_file()));
   } catch (const Error& error) {
-    throw Error(ExitCode::kInternal,
+    throw Error(error.code(),
                 fmt::format("the program cannot tell which build it is: {}", error.what()));
   }
 }
 
 }  // namespace
 
+fs::path program_file() {
+  constexpr char kLink[] = "/proc/self/exe";
+  std::error_code error;
+  fs::path file = fs::read_symlink(kLink, error);
+  if (!error) return file;
+  if (const auto* const started = reinterpret_cast<const char*>(::getauxval(AT_EXECFN)))
+    file = fs::canonical(started, error);
+  if (error)
+    throw failure_of(fmt::format("{}: the program's own file cannot be found", kLink),
+                     error.value(), ExitCode::kInput);
+  return file;
+}
+
 fs::path own_file() {
   static const fs::path file = [] {
     std::string library;
     ::dl_iterate_phdr(take_own_name, &library);
-    return library.empty() ? fs::read_symlink("/proc/self/exe") : fs::canonical(library);
+    if (library.empty()) return program_file();
+    std::error_code error;
+    fs::path found = fs::canonical(library, error);
+    if (error) throw failure_of(library + ": cannot read", error.value(), ExitCode::kInput);
+    return found;
   }();
   return file;
 }

@@ -33,12 +33,16 @@ std::uint64_t memory_of_tree(pid_t process, bool exactly = false);
 /// How many processes this kernel has killed for lack of memory since it started; nothing if it does not tell.
 std::optional<std::uint64_t> count_of_oom_kills();
 
+/// The file of this process's program, without links. By /proc, or where that is missing or cannot be read by the path that
+/// the kernel started it from. Throws Error(kInput) if neither leads to a file.
+std::filesystem::path program_file();
+
 /// The file with this code, without links: the program, or a shared library such as the Python module. Throws
-/// std::filesystem::filesystem_error if /proc cannot be read.
+/// Error(kInput) if it cannot be found.
 std::filesystem::path own_file();
 
 /// The GNU build ID of own_file() in hexadecimal, which is the same for the same code; without one, the SHA-256 of the
-/// file. Throws Error(kInternal) if neither can be read.
+/// file. Throws Error(kInput) if neither can be read.
 const std::string& build_id();
 
 }  // namespace lobelia

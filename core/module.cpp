@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/no_resources.hpp"
 
@@ -17,12 +18,12 @@ fs::path find_companion(std::string_view name) {
   // Looked up once, because the library's name may be relative to the directory that the program began in.
   static const std::vector<fs::path> places = [] {
     const fs::path file = own_file(), here = file.parent_path(), above = here.parent_path();
-    if (file == fs::read_symlink("/proc/self/exe")) return std::vector{here, above / "lib/lobelia"};
+    if (file == program_file()) return std::vector{here, above / "lib/lobelia"};
     // Debian has libraries in lib/ARCHITECTURE.
     return std::vector{here, here / "lobelia", above / "lobelia"};
   }();
   for (const fs::path& place : places)
-    if (fs::is_regular_file(place / name)) return place / name;
+    if (file_type_at(place / name) == fs::file_type::regular) return place / name;
   return {};
 }
 
@@ -36,7 +37,7 @@ void* Module::find(const char* name) {
   std::call_once(once_, [this] {
     if (require_room_) require_room_();
     handle_ = ::dlopen(companion_file(file_).c_str(), RTLD_LAZY | RTLD_LOCAL);
-    if (!handle_) throw failure_of(title_, std::runtime_error(::dlerror()), ExitCode::kInternal);
+    if (!handle_) throw failure_of(title_, std::runtime_error(::dlerror()), ExitCode::kInput);
   });
   void* const found = ::dlsym(handle_, name);
   if (!found) throw Error(ExitCode::kInternal, fmt::format("{}: {}", title_, ::dlerror()));

@@ -20,7 +20,8 @@ class Module {
   const char* file() const { return file_; }
 
   /// What has this name in the module or in a library that it brings. The first call loads the module. Throws
-  /// Error(kInternal) if there is no such module or name, Error(kNoResources) if there is no room.
+  /// Error(kInternal) if there is no such module or name, Error(kInput) if the module or one of its libraries cannot be read,
+  /// Error(kNoResources) if there is no room.
   void* find(const char* name);
 
  private:
@@ -79,9 +80,10 @@ class ModuleFunction<Result(Arguments..., ...)> : ModuleAddress {
   constinit ModuleFunction<decltype(::function)> function { module, #function }
 
 /// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia; for the
-/// shared library beside that, or in lobelia/ or ../lobelia. Throws Error(kInternal) if it is in none.
+/// shared library beside that, or in lobelia/ or ../lobelia. Throws Error(kInternal) if it is in none, Error(kInput) if the
+/// system cannot tell.
 std::filesystem::path companion_file(const char* name);
-/// Empty if it is in none.
+/// The same, but empty if it is in none.
 std::filesystem::path find_companion(std::string_view name);
 
 }  // namespace lobelia

@@ -320,7 +320,6 @@ int main() {
   } catch (const lobelia::Error& error) {
     return int(error.code());
   } catch (const std::exception& error) {
-    return int(lobelia::lacking(error).empty() ? lobelia::ExitCode::kInternal
-                                               : lobelia::ExitCode::kNoResources);
+    return int(lobelia::as_error(error).code());
   }
 }

@@ -300,8 +300,12 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
       if (n > 0) {
         progress.seen();
         sink.take({buffer, std::size_t(n)});
-      } else if (n == 0 || errno != EINTR) {
+      } else if (n == 0) {
         open = false;
+      } else if (errno != EINTR) {
+        // A part of the output could look like all of it.
+        throw failure_of(arguments.front() + ": its output cannot be read", errno,
+                         ExitCode::kEngine);
       }
     } else if (ended) {
       break;
@@ -337,8 +341,11 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
 
 fs::path find_program(const std::string& name) {
   const auto executable = [](const fs::path& path) {
-    std::error_code ignored;  // for example a directory that we may not search
-    return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
+    std::error_code error;  // for example a directory that we may not search
+    const bool is_file = fs::is_regular_file(path, error);
+    if (error && !tells_of_file(error.value()))
+      throw failure_of(path.string() + ": cannot read", error.value(), ExitCode::kInput);
+    return is_file && ::access(path.c_str(), X_OK) == 0;
   };
   if (name.find('/') != name.npos) return executable(name) ? fs::absolute(name) : fs::path();
   const char* path = std::getenv("PATH");

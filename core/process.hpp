@@ -61,10 +61,11 @@ struct ProcessResult {
 /// Runs `arguments` (the first is the program's path) to the end. Then, and also on a timeout, without progress, on
 /// interruption and when we are killed, everything ends that it started, even in other process groups and sessions
 /// (Containment in spawn.hpp says how reliably). The clock may be set meanwhile. Throws Error(kEngine) if it cannot be
-/// started.
+/// started, or its output cannot be read.
 ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options);
 
-/// The program's path if `name` is executable (as a path, or found in $PATH), else empty.
+/// The program's path if `name` is executable (as a path, or found in $PATH), else empty. Throws Error(kInput) where the
+/// system cannot tell: the next one in $PATH may be another program.
 std::filesystem::path find_program(const std::string& name);
 
 }  // namespace lobelia

@@ -15,13 +15,19 @@ namespace {
 
 constexpr int kWaitMilliseconds = 100;  // between looks for Ctrl-C
 
-enum class Room { kYes, kNotYet, kNever };
+enum class Room {
+  kYes,
+  kNotYet,
+  kNever,
+  kUnknown  ///< the system cannot tell: a write may wait
+};
 
 Room wait_for_room(int milliseconds) {
   pollfd stream{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   const int ready = ::poll(&stream, 1, milliseconds);
-  if (ready == 0 || (ready < 0 && errno == EINTR)) return Room::kNotYet;
-  return ready > 0 && (stream.revents & POLLOUT) != 0 ? Room::kYes : Room::kNever;
+  if (ready < 0) return errno == EINTR ? Room::kNotYet : Room::kUnknown;
+  if (ready == 0) return Room::kNotYet;
+  return (stream.revents & POLLOUT) != 0 ? Room::kYes : Room::kNever;
 }
 
 /// Writes the beginning of `text` and removes it from `text`; false if stderr cannot be written. Does not wait: a pipe
@@ -48,8 +54,8 @@ void hold_standard_descriptors() noexcept {
 void write_message(std::string_view text) noexcept {
   while (!text.empty()) {
     const Room room = wait_for_room(interrupted() ? 0 : kWaitMilliseconds);
-    if (room == Room::kNever || (room == Room::kNotYet && interrupted())) return;
-    if (room == Room::kYes && !write_piece(text)) return;
+    if (room == Room::kNever || (room != Room::kYes && interrupted())) return;
+    if (room != Room::kNotYet && !write_piece(text)) return;
   }
 }
 

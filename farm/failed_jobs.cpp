@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "farm/result_cache.hpp"
 
@@ -91,7 +92,7 @@ void FailedJobs::forget_if(
 }
 
 void FailedJobs::remove(const std::string& cell, const std::string& job) const {
-  if (!fs::exists(directory_ / cell)) return;
+  if (file_type_at(directory_ / cell) == fs::file_type::not_found) return;
   const fs::path failed = directory_.filename();
   Removal removal(directory_.parent_path(), ownership(failed));
   removal.remove(failed / cell / job);

@@ -5,21 +5,31 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "farm/job.hpp"
 #include "records/farm_file.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
 
-/// The engines of the last run's farm.json; none if it cannot be read.
+/// The engines of the last run's farm.json; none if that is missing or damaged. Throws Error(kInput) after a fault of its
+/// disk: an engine that is not here would be another one from then on.
 std::vector<records::FarmEngine> engines_before(const fs::path& farm_directory) {
-  std::error_code ignored;
-  if (farm_directory.empty() || !fs::exists(farm_directory / "farm.json", ignored)) return {};
+  if (farm_directory.empty()) return {};
+  const fs::path file = farm_directory / "farm.json";
+  std::string text;
   try {
-    return records::read_farm(farm_directory / "farm.json").engines;
+    text = read_file(file, records::kMaxRecordBytes);
+  } catch (const Error&) {
+    if (!is_out_of_reach(file, records::kMaxRecordBytes)) throw;
+    return {};
+  }
+  try {
+    return records::parse_farm(text, file.string()).engines;
   } catch (const std::exception&) {
     return {};  // the farm writes it anew soon
   }

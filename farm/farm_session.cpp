@@ -20,8 +20,7 @@ namespace {
 
 /// Neither may lie among the files of the other, which may be removed at any time.
 void require_apart(const fs::path& cache, const fs::path& directory) {
-  const fs::path a = fs::weakly_canonical(fs::absolute(cache)),
-                 b = fs::weakly_canonical(fs::absolute(directory));
+  const fs::path a = real_path(cache), b = real_path(directory);
   const auto is_in = [](const fs::path& inner, const fs::path& outer) {
     const fs::path between = inner.lexically_relative(outer);
     return !between.empty() && *between.begin() != "..";
@@ -303,10 +302,9 @@ bool FarmSession::has_lost(const std::vector<JobState>& states) const {
 FarmSummary FarmSession::summarise(const JobRunWork& done) {
   std::unordered_set<std::string> ids;
   for (const auto& cell : work_.cells.cells) ids.insert(cell.id);
-  std::error_code ignored;
   summary_.foreign = 0;
-  for (const auto& entry : fs::directory_iterator(directory_ / "cells", ignored))
-    if (!ids.contains(entry.path().filename().string())) ++summary_.foreign;
+  for (const std::string& name : HeldDirectory(directory_ / "cells").names())
+    if (!ids.contains(name)) ++summary_.foreign;
   static_cast<records::StatusCounts&>(summary_) = count_statuses(status_);
   std::ranges::sort(summary_.problems);
   summary_.work = done;

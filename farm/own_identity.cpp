@@ -5,9 +5,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "core/host.hpp"
 #include "core/image_io_module.hpp"
+#include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/process.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
@@ -36,6 +39,7 @@ std::string find_loader() {
 
 /// All libraries that the loader would load for a file, as ldd prints them: "name => /path (0x...)" or "/path (0x...)".
 /// Ignores LD_PRELOAD: a cluster's allocator or profiler is no part of us, and a changed libm shows in the arithmetic.
+/// Throws Error(kInput) if the list is not whole, because results would get other keys.
 std::vector<fs::path> libraries_of(const std::string& loader, const fs::path& file) {
   ProcessOptions options;
   options.only_environment = true;
@@ -47,8 +51,15 @@ std::vector<fs::path> libraries_of(const std::string& loader, const fs::path& fi
     if (begin != line.npos && end != line.npos && begin < end)
       libraries.emplace_back(line.substr(begin, end - begin));
   };
-  run_process({loader, "--list", file.string()}, options);
-  return libraries;
+  const ProcessResult listed = run_process({loader, "--list", file.string()}, options);
+  throw_if_interrupted();
+  if (listed.exit_code == 0) return libraries;
+  const std::vector<std::string> lines = split(listed.output_tail, "\n");
+  std::string why = lines.empty() ? fmt::format("exit code {}", listed.exit_code) : lines.back();
+  constexpr std::string_view kLoading = "error while loading shared libraries: ";
+  if (const std::size_t at = why.find(kLoading); at != why.npos) why.erase(0, at + kLoading.size());
+  throw failure_of(file.string() + ": its libraries cannot be listed", std::runtime_error(why),
+                   ExitCode::kInput);
 }
 
 Content find_libraries() {

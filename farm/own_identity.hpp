@@ -29,7 +29,8 @@ struct OwnIdentity {
   }
 };
 
-/// The identity of this process, found once in some milliseconds. Throws Error(kInternal) if a file of ours is missing.
+/// The identity of this process, found once in some milliseconds. Throws Error(kInternal) if a file of ours is missing,
+/// Error(kInput) if one or a library cannot be read.
 const OwnIdentity& own_identity();
 
 /// The files that own_identity().libraries hashes.

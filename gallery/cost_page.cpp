@@ -359,13 +359,13 @@ std::string dearest_step(const records::Cost& record) {
 }
 
 std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<records::Cost>(run, kRecord, kTitle,
-                                    [&](ViewPage& page, const records::Cost& record) {
-                                      write_cost(page, run, record);
-                                      page.finding = dearest_step(record);
-                                      if (std::filesystem::is_regular_file(run / kCsv))
-                                        page.files.push_back(kCsv);
-                                    });
+  return record_page<records::Cost>(
+      run, kRecord, kTitle, [&](ViewPage& page, const records::Cost& record) {
+        write_cost(page, run, record);
+        page.finding = dearest_step(record);
+        if (file_type_at(run / kCsv) == std::filesystem::file_type::regular)
+          page.files.push_back(kCsv);
+      });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "core/error.hpp"
+#include "core/no_resources.hpp"
 #include "core/text.hpp"
 #include "gallery/cell_page.hpp"
 
@@ -70,7 +71,8 @@ void match_by(bool by_last_part, const records::Farm& now, const records::Farm& 
   }
 }
 
-/// The first link among the places that the cell's records are read from; empty if there is none.
+/// The first link among the places that the cell's records are read from; empty if there is none. Throws Error(kInput) if
+/// the system cannot tell.
 std::string link_in(const fs::path& run, const std::string& id) {
   const fs::path cells = run / "cells", here = cells / id;
   if (is_link(cells)) return "cells";
@@ -78,6 +80,8 @@ std::string link_in(const fs::path& run, const std::string& id) {
   std::error_code error;
   for (fs::directory_iterator at(here, error), end; !error && at != end; at.increment(error))
     if (is_link(at->path())) return at->path().filename().string();
+  if (error && !tells_of_file(error.value()))
+    throw failure_of(here.string() + ": cannot be listed", error.value(), ExitCode::kInput);
   return "";
 }
 

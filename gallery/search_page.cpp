@@ -115,7 +115,8 @@ void write_lobes(Html& html, const LobeSearch& found, const std::filesystem::pat
     {
       const Tag head(html, "th", {{"scope", "row"}});
       const std::string shader = fmt::format("{}/{}.glsl", kDirectory, lobe.name);
-      if (is_plain_name(lobe.name) && std::filesystem::is_regular_file(run / shader)) {
+      if (is_plain_name(lobe.name) &&
+          file_type_at(run / shader) == std::filesystem::file_type::regular) {
         html.element("a", {{"href", shader}}, lobe.name);
         page.files.push_back(shader);
       } else {

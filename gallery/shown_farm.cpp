@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "records/record.hpp"
 
@@ -94,8 +95,7 @@ ShownFarm show(records::Farm record, const Metrics& metrics) {
 ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics,
                     std::shared_ptr<const Scrub> scrub) {
   const auto path = directory / "farm.json";
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
+  if (file_type_at(path) == std::filesystem::file_type::not_found)
     throw Error(ExitCode::kInput,
                 path.string() +
                     ": no such file; a gallery is made of a directory that 'lobelia farm' wrote");

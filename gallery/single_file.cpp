@@ -103,9 +103,7 @@ std::string single_file(const fs::path& directory, const std::string& title,
                         const std::string& first_page) {
   const std::string style = read_file(directory / kStyleFile, kMostBytes);
   const std::string script = read_file(directory / kScriptFile, kMostBytes);
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory))
-    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::vector<fs::path> files = regular_files_below(directory);
   std::ranges::sort(files);
 
   const std::string first = first_page.empty() ? "index.html" : first_page;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/html.hpp"
 #include "gallery/scrub.hpp"
 #include "records/record.hpp"
@@ -41,7 +42,7 @@ ViewPage unreadable_page(const char* title, const Error& error);
 template <class T>
 std::optional<ViewPage> record_page(const RunFiles& run, const char* file, const char* title,
                                     const std::function<void(ViewPage&, const T&)>& draw) {
-  if (!std::filesystem::exists(run / file)) return std::nullopt;
+  if (file_type_at(run / file) == std::filesystem::file_type::not_found) return std::nullopt;
   try {
     records::Origin origin;
     const T record = read_scrubbed<T>(run / file, run.scrub, file, &origin);

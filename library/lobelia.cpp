@@ -61,9 +61,8 @@ auto guarded(Work&& work) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    const std::string lack = lacking(error);
-    throw v0::Error(lack.empty() ? ErrorCode::internal : ErrorCode::resources,
-                    lack.empty() ? error.what() : lack);
+    const lobelia::Error known = as_error(error);
+    throw v0::Error(code_of(known.code()), known.what());
   }
 }
 

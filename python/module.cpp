@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/host.hpp"
+#include "core/no_resources.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
 #include "core/version.hpp"
@@ -18,6 +19,15 @@ void take_command_line() {
   for (std::size_t i = 1; i < words.size(); ++i) cli::command_line().push_back(path_of(words[i]));
 }
 
+void set_python_error(const Error& error) {
+  if (error.code() == ExitCode::kInterrupted) return PyErr_SetNone(PyExc_KeyboardInterrupt);
+  std::vector<std::string> lines;  // as the program prints them
+  for (const std::string& line : error.lines()) lines.push_back(printable(line, 2000));
+  const py::object made =
+      py::module_::import("lobelia._errors").attr("error_of")(int(error.code()), lines);
+  PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
+}
+
 }  // namespace
 
 void add_errors(py::module_& module) {
@@ -25,12 +35,9 @@ void add_errors(py::module_& module) {
     try {
       std::rethrow_exception(pointer);
     } catch (const Error& error) {
-      if (error.code() == ExitCode::kInterrupted) return PyErr_SetNone(PyExc_KeyboardInterrupt);
-      std::vector<std::string> lines;  // as the program prints them
-      for (const std::string& line : error.lines()) lines.push_back(printable(line, 2000));
-      const py::object made =
-          py::module_::import("lobelia._errors").attr("error_of")(int(error.code()), lines);
-      PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
+      set_python_error(error);
+    } catch (const std::filesystem::filesystem_error& error) {
+      set_python_error(as_error(error));
     }
   });
   module.attr("version") = kVersion;

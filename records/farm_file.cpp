@@ -45,7 +45,10 @@ void write_farm(const std::filesystem::path& path, Farm farm, std::size_t count,
 }
 
 Farm read_farm(const std::filesystem::path& path) {
-  const std::string text = read_file(path, kMaxRecordBytes);
+  return parse_farm(read_file(path, kMaxRecordBytes), path.string());
+}
+
+Farm parse_farm(std::string_view text, const std::string& where) {
   Farm farm;
   std::vector<FarmCell> cells;
   std::exception_ptr bad_cell;  // what is wrong with the record itself is said first
@@ -67,9 +70,9 @@ Farm read_farm(const std::filesystem::path& path) {
     struct_type<Farm>().read(json, {}, Place(), &farm);
     if (bad_cell) std::rethrow_exception(bad_cell);
   } catch (const Json::exception& error) {
-    throw Error(ExitCode::kInput, path.string() + ": not a record: " + error.what());
+    throw Error(ExitCode::kInput, where + ": not a record: " + error.what());
   } catch (const Error& error) {
-    throw Error(error.code(), path.string() + ": " + error.what());
+    throw Error(error.code(), where + ": " + error.what());
   }
   farm.cells = std::move(cells);
   return farm;

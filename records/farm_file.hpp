@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <string_view>
 
 #include "records/farm.hpp"
 
@@ -13,7 +15,8 @@ namespace lobelia::records {
 void write_farm(const std::filesystem::path& path, Farm farm, std::size_t count,
                 const std::function<FarmCell(std::size_t)>& cell);
 
-/// As read_record().
+/// As read_record() and parse_record().
 Farm read_farm(const std::filesystem::path& path);
+Farm parse_farm(std::string_view text, const std::string& where);
 
 }  // namespace lobelia::records

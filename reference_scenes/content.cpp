@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <functional>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
+#include "core/no_resources.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "records/record.hpp"
@@ -38,8 +38,7 @@ std::string identity_of(const struct stat& status) {
 struct stat status_of(const InputFile& file) {
   struct stat status {};
   if (::fstat(file.descriptor(), &status) != 0)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: cannot read: {}", file.path().string(), std::strerror(errno)));
+    throw failure_of(file.path().string() + ": cannot read", errno, ExitCode::kInput);
   return status;
 }
 
@@ -68,6 +67,13 @@ fs::path file_of_user() {
 }
 
 }  // namespace
+
+bool is_out_of_reach(const fs::path& file, std::uint64_t max_bytes) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return tells_of_file(errno);
+  return !S_ISREG(status.st_mode) || std::uint64_t(status.st_size) > max_bytes ||
+         (::access(file.c_str(), R_OK) != 0 && tells_of_file(errno));
+}
 
 FileHashes& FileHashes::of_user() {
   static FileHashes hashes(file_of_user());
@@ -135,8 +141,9 @@ void ContentReader::add(std::string_view part, std::string_view name, const fs::
   records::ContentFile hashed{file.string(), 0, kUnreadable};
   try {
     hashed = hashes_.hash(file);
-  } catch (const Error& error) {  // such as one that may be executed but not read
-    if (error.code() != ExitCode::kInput) throw;
+  } catch (const Error& error) {
+    // A program may be executable but not readable. If a fault counted as that, all keys would change without a word.
+    if (error.code() != ExitCode::kInput || !is_out_of_reach(file)) throw;
   }
   parts_.push_back(fmt::format("{}:{}:{}:{}\n", part, name.size(), name, hashed.sha256));
   files_.push_back(std::move(hashed));
@@ -147,12 +154,18 @@ void ContentReader::add_directory(const fs::path& directory) {
   auto entry = fs::recursive_directory_iterator(
       directory, fs::directory_options::skip_permission_denied, error);
   for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
-    std::error_code ignored;
+    std::error_code unknown;
     if (entry->path().filename() == "__pycache__" || entry.depth() > kDeepestFolder)
       entry.disable_recursion_pending();
-    else if (entry->is_regular_file(ignored) && parts_.size() < kMostListedFiles)
+    else if (entry->is_regular_file(unknown) && parts_.size() < kMostListedFiles)
       add("data", entry->path().lexically_relative(directory).native(), entry->path());
+    if (unknown && !tells_of_file(unknown.value())) {
+      error = unknown;
+      break;
+    }
   }
+  if (error && !tells_of_file(error.value()))
+    throw failure_of(directory.string() + ": cannot be listed", error.value(), ExitCode::kInput);
 }
 
 Content ContentReader::content() {

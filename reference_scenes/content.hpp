@@ -14,6 +14,10 @@
 
 namespace lobelia {
 
+/// Whether a file that could not be read is gone, is no regular file, may not be read or is over `max_bytes`: reasons that
+/// stay, unlike a fault of its disk.
+bool is_out_of_reach(const std::filesystem::path& file, std::uint64_t max_bytes = UINT64_MAX);
+
 /// Hashes of files that seldom change, remembered from one run to the next. A hash stays valid while the file's device,
 /// inode, size, and times of change of content and inode stay the same. A file changed within the last two seconds is not
 /// remembered: it may change again within one tick of the clock.
@@ -51,10 +55,11 @@ class ContentReader {
  public:
   explicit ContentReader(FileHashes& hashes) : hashes_(hashes) {}
   /// `part` is "program", "library" and so on. `name` is the same wherever the file lies; empty if it makes no difference.
-  /// An unreadable file counts by its name only.
+  /// A file that is gone or may not be read counts by its name only. Throws Error(kInput) if one cannot be read for another
+  /// reason, such as a fault of the disk.
   void add(std::string_view part, std::string_view name, const std::filesystem::path& file);
   /// All regular files below `directory`, if it exists, by their relative names. Skips Python's caches and links to
-  /// directories.
+  /// directories. Throws as add(), and if a directory cannot be listed.
   void add_directory(const std::filesystem::path& directory);
   Content content();
 

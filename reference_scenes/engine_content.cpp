@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/no_resources.hpp"
 #include "core/process.hpp"
 #include "core/text.hpp"
 
@@ -59,15 +60,20 @@ std::vector<std::string> LoaderTrace::environment() const {
 EngineFiles LoaderTrace::files() const {
   EngineFiles files;
   std::size_t traces = 0;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(directory_, ignored)) {
-    if (!entry.path().filename().native().starts_with(kTraceName) || ++traces > kMostTraces)
-      continue;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory_, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& trace = entry->path();
+    if (!trace.filename().native().starts_with(kTraceName) || ++traces > kMostTraces) continue;
     try {
-      add_files(read_file(entry.path(), kMostTraceBytes), files);
-    } catch (const Error&) {  // the program wrote something else there
+      add_files(read_file(trace, kMostTraceBytes), files);
+    } catch (const Error&) {
+      // The program may have written something else there. But a trace lost to a fault would make another engine of it.
+      if (!is_out_of_reach(trace, kMostTraceBytes)) throw;
     }
   }
+  if (error && !tells_of_file(error.value()))
+    throw failure_of(directory_.string() + ": cannot be listed", error.value(), ExitCode::kInput);
   keep_each_once(files.programs);
   keep_each_once(files.libraries);
   return files;

@@ -12,6 +12,7 @@
 #include "compare/set/pairing.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/no_resources.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -66,8 +67,17 @@ class FolderWalk {
 
   void look_at(const std::filesystem::directory_entry& entry, const std::filesystem::path& name) {
     std::error_code unknown;
+    // An entry that cannot be looked at would be left out without a word.
+    const auto require_known = [&] {
+      if (unknown && !tells_of_file(unknown.value()))
+        throw failure_of((root_ / name).string() + ": cannot be read", unknown.value(),
+                         ExitCode::kInput);
+    };
     const bool is_link = entry.is_symlink(unknown);
-    if (entry.is_directory(unknown)) {
+    require_known();
+    const bool is_directory = entry.is_directory(unknown);
+    require_known();
+    if (is_directory) {
       const std::filesystem::path real =
           is_link ? std::filesystem::canonical(entry.path(), unknown) : entry.path();
       if (is_below(real, real_root_))

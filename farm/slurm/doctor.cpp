@@ -239,7 +239,8 @@ class Doctor {
     const std::string why = wait_for_job(*submission.job, name, directory);
     if (!why.empty()) client_.cancel(name);
     throw_if_interrupted();
-    if (!fs::exists(directory / kAnswer)) {
+    std::error_code unknown;  // an answer that cannot be looked at is none
+    if (!fs::exists(directory / kAnswer, unknown)) {
       add("a job", CheckVerdict::kFailed,
           why.empty() ? "it ended and nothing of it is seen here" : why,
           fmt::format("is {} the same on the nodes, and does {} run there?", base.string(),
@@ -256,7 +257,8 @@ class Doctor {
     int ended = 0;
     while (std::chrono::steady_clock::now() - start < options_.node_limit) {
       if (interrupted()) return "interrupted";
-      if (fs::exists(directory / kAnswer)) return "";
+      std::error_code unknown;
+      if (fs::exists(directory / kAnswer, unknown)) return "";
       const auto elements = client_.elements(job, name);
       const bool lives =
           !elements || std::any_of(elements->begin(), elements->end(), [](const auto& element) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "farm/chunk.hpp"
 #include "records/record.hpp"
@@ -51,7 +52,7 @@ void RunContext::write_record() const {
 
 records::SlurmRun read_run_record(const fs::path& run_directory) {
   const auto path = run_directory / kRunRecordFile;
-  if (!fs::exists(path)) return {};
+  if (file_type_at(path) == fs::file_type::not_found) return {};
   auto record = records::read_record<records::SlurmRun>(path);
   if (!record.name.starts_with("lobelia-") || !std::ranges::all_of(record.name, [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';

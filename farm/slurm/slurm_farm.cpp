@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 #include "records/record.hpp"
 
@@ -116,17 +117,13 @@ struct RecordedRun {
   FarmOptions options;
 };
 
-/// What a run's record says beyond the farm's directory, for refuse_without_leave().
+/// Lists what a run's record asks for beyond the farm's directory, for refuse_without_leave().
 std::vector<std::string> wishes_of_run(const records::FarmRun& record, const fs::path& directory) {
   std::vector<std::string> wishes;
   for (const auto& [engine, program] : record.programs) wishes.push_back(start_of(engine, program));
-  std::error_code unknown;
-  const auto real = [&](const fs::path& path) {
-    return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
-  };
-  if (real(record.cache) != real(cache_directory({}, directory)))
+  if (real_path(record.cache) != real_path(cache_directory({}, directory)))
     wishes.push_back(fmt::format("write into the cache '{}'", printable(record.cache, 1000)));
-  if (!record.gallery.empty() && !is_below(real(record.gallery), real(directory)))
+  if (!record.gallery.empty() && !is_below(real_path(record.gallery), real_path(directory)))
     wishes.push_back(fmt::format("write a gallery into '{}'", printable(record.gallery, 1000)));
   return wishes;
 }
@@ -163,14 +160,6 @@ RecordedRun read_run(const fs::path& directory, const Leave& leave) {
 
 }  // namespace
 
-fs::path own_program() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error)
-    throw Error(ExitCode::kInternal, fmt::format("the program's own path: {}", error.message()));
-  return program;
-}
-
 fs::path slurm_run_directory(const fs::path& directory) {
   return fs::absolute(directory) / "runs" / "slurm";
 }
@@ -200,7 +189,7 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   FarmSession session(grid, directory, options);
   SlurmWork work;
   work.run_directory = slurm_run_directory(directory);
-  work.program = own_program();
+  work.program = program_file();
   make_directories(work.run_directory / "chunks");
   Missing missing(session);
   // A client that finds living jobs keeps their failures; a new run tries everything again.

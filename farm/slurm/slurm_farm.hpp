@@ -32,9 +32,6 @@ ChunkSummary exec_slurm_chunk(const std::filesystem::path& run_directory, std::s
 /// For the last element: writes the farm's directory from the results of the others. Throws as attach_to_slurm_run().
 SlurmFarmSummary finish_slurm_run(const std::filesystem::path& run_directory, const Leave& leave);
 
-/// The path of the running program, which is the same on the nodes.
-std::filesystem::path own_program();
-
 /// About how many seconds a job takes on one processor, for the size of chunks. `engine` is null for our own picture.
 double estimated_seconds(JobKind kind, const EngineInfo* engine, const Scene& scene);
 

@@ -1,5 +1,7 @@
 #include "studies/cost/benchmarks.hpp"
 
+#include "core/host.hpp"
+
 namespace lobelia::cost {
 namespace {
 
@@ -23,7 +25,7 @@ std::filesystem::path Options::program(std::string_view engine) const {
   for (const auto& [name, path] : programs)
     if (name == engine) return path;
   // Resolved here: in the keeper process that starts it, the link would lead to the keeper.
-  return engine == "lobelia" ? std::filesystem::read_symlink("/proc/self/exe") : "";
+  return engine == "lobelia" ? program_file() : std::filesystem::path();
 }
 
 }  // namespace lobelia::cost

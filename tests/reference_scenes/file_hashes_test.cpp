@@ -103,6 +103,16 @@ TEST_F(ContentTest, IsOfContentAndNamesAndNotOfPlacesAndOrder) {
   EXPECT_EQ(content({}), "");
 }
 
+TEST_F(ContentTest, IsNotMadeOfAFileThatAFaultHides) {
+  FileHashes hashes{fs::path()};
+  ContentReader reader(hashes);
+  // Anyone may open it, and the first bytes of memory give EIO.
+  EXPECT_THROW(reader.add("library", "memory", "/proc/self/mem"), Error);
+  EXPECT_NO_THROW(reader.add("library", "gone", directory_.path() / "gone"));
+  EXPECT_NO_THROW(reader.add("library", "no file", directory_.path()));
+  EXPECT_EQ(reader.content().files.size(), 2u);
+}
+
 TEST_F(ContentTest, OfADirectoryIsOfAllFilesButPythonsCaches) {
   FileHashes hashes{fs::path()};
   const auto content = [&] {

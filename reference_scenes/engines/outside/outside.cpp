@@ -248,7 +248,8 @@ std::string Outside::key_part(const AxisValues& axes) const {
     try {
       return FileHashes::of_user().hash(open_picture(axes)).sha256;
     } catch (const Error& error) {
-      if (error.code() != ExitCode::kInput) throw;
+      const fs::path file = fs::path(engine_.directory) / picture_of(axes);
+      if (error.code() != ExitCode::kInput || !is_out_of_reach(file, kMostHashedBytes)) throw;
       return "unreadable";
     }
   }

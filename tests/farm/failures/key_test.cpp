@@ -3,6 +3,7 @@
 
 #include "core/text.hpp"
 #include "failing_farm.hpp"
+#include "lobelia_paths.hpp"
 #include "tests/json.hpp"
 
 namespace lobelia {
@@ -106,6 +107,27 @@ TEST_F(Key, HasHowTheCLibraryCalculates) {
   for (const auto& [job, key] : keys.items()) EXPECT_NE(results("n16").at(job), key) << job;
   EXPECT_EQ(run().rendered, 0u);
   EXPECT_EQ(results("n16"), keys);
+}
+
+TEST_F(Key, IsNotMadeWithoutALibraryThatCannotBeRead) {
+  fake_povray();
+  ASSERT_EQ(run().exit_code, 0);
+  const Json keys = results("n16");
+  // A library that a module of ours needs, and the program does not.
+  const std::string module =
+      read_file(fs::path(LOBELIA_PROGRAM).parent_path() / "lobelia_image_io.so", 1 << 28);
+  const std::size_t at = module.find("libOpenImageIO.so");
+  ASSERT_NE(at, module.npos);
+  const std::string name = module.substr(at, module.find('\0', at) - at);
+  fs::create_directory(root() / "broken");
+  write_file(root() / "broken" / name, "no library");
+  const std::string path = "LD_LIBRARY_PATH=" + (root() / "broken").string();
+  const FarmRun broken = run_command(command(), {path});
+  EXPECT_EQ(broken.exit_code, 3) << broken.output;
+  EXPECT_THAT(broken.output, HasSubstr("lobelia_image_io.so: its libraries cannot be listed: "));
+  EXPECT_THAT(broken.output, HasSubstr(name + ": "));
+  EXPECT_EQ(results("n16"), keys);
+  EXPECT_EQ(run().rendered, 0u);
 }
 
 TEST_F(Key, HasEveryVariableThatChangesAResult) {
