@@ -100,7 +100,7 @@ void Publisher::write_list(const std::set<std::string>& files,
                            const std::map<std::string, std::string>& keys) const {
   const std::string text = records::record_text(
       records::GalleryList{{files.begin(), files.end()}, {keys.begin(), keys.end()}});
-  if (!is_same_text(site_ / kSiteList, text)) write_file(site_ / kSiteList, text);
+  if (!is_same_text(site_ / kSiteList, text)) write_file(site_ / kSiteList, text, AtLink::kReplace);
 }
 
 void Publisher::add_to_list(const std::string& name) {

@@ -282,7 +282,7 @@ TEST(Publication, refuses_what_is_not_its_own) {
     EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
 }
 
-TEST(Publication, that_was_killed_is_known_again_and_its_unfinished_files_go) {
+TEST(Publication, a_killed_one_is_known_again_and_its_unfinished_files_go) {
   const TemporaryDirectory place;
   const fs::path site = place.path() / "site", empty = place.path() / "empty";
   const std::set<std::string> own{"index.html", "comparison.json"};
@@ -311,7 +311,18 @@ TEST(Publication, that_was_killed_is_known_again_and_its_unfinished_files_go) {
   EXPECT_FALSE(fs::exists(empty / unfinished("x")));
 }
 
-TEST(Publication, that_was_killed_leaves_no_key_of_a_file_that_it_made_anew) {
+TEST(Publication, does_not_write_its_list_through_a_link) {
+  const TemporaryDirectory place;
+  const fs::path site = place.path() / "site";
+  fs::create_directory(site);
+  write_file(place.path() / "mine", std::string_view("mine"));
+  fs::create_symlink(place.path() / "mine", site / kSiteList);
+  Publisher(site).write("index.html", "index");
+  EXPECT_EQ(content(place.path() / "mine"), "mine");
+  EXPECT_EQ(kind_of_site(site), SiteKind::kGallery);
+}
+
+TEST(Publication, a_killed_one_leaves_no_key_of_a_file_that_it_made_anew) {
   const TemporaryDirectory place;
   const auto publish = [&](const char* key, bool to_the_end) {
     Publisher publisher(place.path() / "site");
