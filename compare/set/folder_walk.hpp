@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/no_resources.hpp"
+#include "core/replacement.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -27,7 +28,7 @@ inline bool has_picture_ending(const std::filesystem::path& file) {
   return std::ranges::count(kEndings, lower_case(file.extension().string())) > 0;
 }
 
-/// The pictures of a folder and of those inside it, by their paths from it, sorted.
+/// The pictures of a folder and of those inside it, by their paths from it, sorted. Replaced references are none of them.
 class FolderWalk {
  public:
   FolderWalk(std::filesystem::path root, std::size_t most_files)
@@ -57,6 +58,7 @@ class FolderWalk {
     std::error_code error;
     for (std::filesystem::directory_iterator entry(real, error), end; !error && entry != end;
          entry.increment(error)) {
+      if (entry->path().filename() == kReplacedName) continue;
       if (++files_ > most_files_)
         fail(fmt::format("holds over {} files, which is what is compared at most", most_files_));
       look_at(*entry, name / entry->path().filename());

@@ -88,6 +88,12 @@ TEST_F(FolderPairing, PassesOverWhatIsNoPictureAndCountsIt) {
   EXPECT_EQ(pairs().passed_over, 5u);
 }
 
+TEST_F(FolderPairing, LeavesOutWhatAnAcceptanceReplaced) {
+  for (const char* file : {"a/x.exr", "b/x.exr", "b/deep/.lobelia-accepted/old.exr"}) put(file);
+  EXPECT_THAT(pairs().missing, IsEmpty());
+  EXPECT_EQ(pairs().passed_over, 0u);
+}
+
 TEST_F(FolderPairing, FollowsLinksInsideTheFolderAndEndsInACircle) {
   for (const char* file : {"a/x.exr", "a/deep/y.exr", "b/x.exr", "b/deep/y.exr", "b/link/y.exr"})
     put(file);
