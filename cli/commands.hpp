@@ -11,14 +11,15 @@
 namespace lobelia::cli {
 
 /// By task, in the order of --help. A command is add_NAME() in a file of this folder, and its name here.
-#define LOBELIA_COMMANDS(task, command)                                                            \
-  task("Render a scene") command(render) command(reference) command(plan) command(scene)           \
-      task("Compare pictures") command(compare) command(profile) task("Render and compare many")   \
-          command(farm) command(gallery) task("Choose a highlight") command(models)                \
-              command(search) command(cost) command(convert) task("Write shaders") command(export) \
-                  command(check_shader) task("Look something up") command(engines)                 \
-                      command(scene_format) command(records) task("Check Lobelia itself")          \
-                          command(verify) command(manual)
+#define LOBELIA_COMMANDS(task, command)                                                        \
+  task("Render a scene") command(render) command(reference) command(plan) command(scene)       \
+      task("Compare pictures") command(compare) command(accept) command(profile)               \
+          task("Render and compare many") command(farm) command(gallery)                       \
+              task("Choose a highlight") command(models) command(search) command(cost)         \
+                  command(convert) task("Write shaders") command(export) command(check_shader) \
+                      task("Look something up") command(engines) command(scene_format)         \
+                          command(records) task("Check Lobelia itself") command(verify)        \
+                              command(manual)
 #define LOBELIA_NO_TASK(title)
 #define LOBELIA_DECLARE(name) void add_##name(CLI::App& app, ExitCode& exit_code);
 LOBELIA_COMMANDS(LOBELIA_NO_TASK, LOBELIA_DECLARE)

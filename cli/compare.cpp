@@ -9,6 +9,7 @@
 #include "cli/compare_arguments.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
+#include "cli/replaced_references.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/sensitivity.hpp"
@@ -159,7 +160,8 @@ ExitCode run_compare(CompareArguments options) {
                 "A and B are required, the pictures to judge and the references, or a --project");
   const bool has_table = !prints_report(options);
   if (options.accept) require_person();
-  const Pairing pairing = pair_pictures(options.job.pictures);
+  options.job.hash_files = options.accept;
+  const Pairing pairing = pair_finished(options.job.pictures);
   const bool one = is_one_pair(pairing);
   check_companions(options.job, pairing);
   options.job.difference.check(!one, comparison.viewing.hdr_exposures.has_value());
@@ -344,7 +346,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   general.add_flag(
       "--accept", options->accept,
       "Afterwards, show which references would change, ask, and copy A over those that "
-      "it differs from; only at a terminal, never in CI");
+      "it differs from; only at a terminal, never in CI. lobelia accept --undo puts them back");
   general.add("--reference-floor", job.c, "C",
               "A second reference: how far it is from B is shown beside how far A is");
   add_reading_options(*command);

@@ -58,8 +58,9 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
 /// Throws Error(kUsage) unless somebody sits at a terminal, and none of it is a CI job.
 void require_person();
 
-/// Shows what would change, asks, and copies the judged pictures that do not pass over their references, all or none.
-/// Whether nothing is left that fails. Throws Error(kInput) if one cannot be read any more, Error(kOutput) if one cannot be written.
+/// Shows what would change, asks, and copies the judged pictures that do not pass over their references, all or none: the
+/// bytes that were compared. Leaves alone, and names, what was not compared as a whole. `options.job.hash_files` was set.
+/// Whether nothing is left that fails. Throws as replace_files().
 bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
                      const SetReport& report);
 

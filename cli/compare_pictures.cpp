@@ -17,6 +17,7 @@
 #include "core/for_each_whole.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
+#include "core/replacement.hpp"
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
@@ -72,6 +73,7 @@ template <class Difference>
 PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
                         bool choose_exposures, Difference difference) {
   const auto started = std::chrono::steady_clock::now();
+  const SteadyFile file_a(pair.a), file_b(pair.b);
   ComparisonOptions options = job.comparison;
   PicturePair pictures = read_compared(pair, job, pairing, options);
   Image &a = pictures.a.image, &b = pictures.b.image;
@@ -86,6 +88,7 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
   pair.comparison->reference_floor = std::move(floor);
   pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
+  if (job.hash_files) pair.hashes = {file_a.digest(), file_b.digest()};
   difference(a, b, *pair.comparison, pair.verdict());
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return pair;

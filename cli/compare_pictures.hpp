@@ -36,6 +36,8 @@ class NoiseFlags {
   /// noise_of_layers().
   void read(const std::string& name, const PairReport& files, PicturePair& pair,
             ComparisonOptions& options) const;
+  /// Whether a picture is the mean of several files.
+  bool has_replicates() const { return !a_.replicates.empty() || !b_.replicates.empty(); }
 
  private:
   struct Side {
@@ -147,7 +149,8 @@ struct CompareJob {
   RegionFlags regions;
   std::vector<PairRule> rules;  ///< the last that fits a pair counts most
   std::vector<records::KnownDifference> known;
-  std::string today;  ///< "2027-01-31", in UTC
+  std::string today;        ///< "2027-01-31", in UTC
+  bool hash_files = false;  ///< for PairReport::hashes
 };
 
 /// The job with the rules that fit a pair of this name.

@@ -62,6 +62,8 @@ const std::vector<Fact> kEnvironment = {
 const std::vector<Fact> kFiles = {
     {"OUT.exr, OUT.json", "a picture, and beside it the record that says how it was made"},
     {"lobelia.toml", "what lobelia compare does in this folder without arguments"},
+    {"REFERENCES/.lobelia-accepted/",
+     "what the last lobelia compare --accept replaced, for lobelia accept --undo; may be removed"},
     {"DIR/cache/", "results of farms; may be lost, and is made again"},
     {"DIR/farm.json, DIR/cells/, DIR/failed/", "a farm: its cells, and what failed"},
     {"~/.cache/lobelia/file-hashes-HOST.json",

@@ -6,6 +6,7 @@
 
 #include "cli/compare_arguments.hpp"
 #include "cli/options.hpp"
+#include "cli/replaced_references.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/image_io.hpp"
@@ -133,7 +134,7 @@ ComparedSet compare_set(CompareOptions& options, const py::object& progress) {
   ComparedSet compared;
   run(progress, [&](const ShowProgress& show) {
     options.apply();
-    const Pairing pairing = pair_pictures(options.job.pictures);
+    const Pairing pairing = cli::pair_finished(options.job.pictures);
     cli::check_companions(options.job, pairing);
     const double count = double(cli::pairs_of(pairing).size());
     ThreadLimit(options.threads).run([&] {

@@ -3,8 +3,14 @@
 
 #include "compare/layers.hpp"
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
+
+/// Hashes of the two files of a pair; nothing for one that changed while it was compared.
+struct PairHashes {
+  std::optional<Sha256Digest> a, b;
+};
 
 struct PairReport {
   std::string
@@ -18,6 +24,7 @@ struct PairReport {
   std::size_t row = 0, set = 0;                   ///< of `a` in the Pairing
   std::vector<std::string> references = {};  ///< all that are acceptable; `b` is the best of them
   std::optional<records::Known> known = {};  ///< what was said of its difference beforehand
+  PairHashes hashes = {};                    ///< if they were asked for
 
   /// Whether it does not pass, and that counts as no failure.
   bool is_excused() const;

@@ -1,9 +1,8 @@
-// `lobelia compare` with a project, several references, known differences and --accept; Markdown, GitHub's lines, colours.
+// `lobelia compare` with a project, several references and known differences; Markdown, GitHub's lines, colours.
 #include <fmt/chrono.h>
 
 #include <ctime>
 #include <filesystem>
-#include <limits>
 #include <random>
 
 #include "tests/cli/compare_pictures_fixture.hpp"
@@ -33,14 +32,6 @@ class CompareProject : public ComparePictures {
     const ProcessResult result = compare({});
     expect_one_line(result, 3, why);
     EXPECT_THAT(result.output_tail, HasSubstr("lobelia.toml: "));
-  }
-  /// `lobelia compare --accept` at a terminal of its own, where `answer` is typed, with $CI as given.
-  std::string accept_at_a_terminal(const std::string& answer, const std::string& ci = "") {
-    return run_shell("export LOBELIA CI=" + ci + "; unset JENKINS_URL TEAMCITY_VERSION TF_BUILD\n" +
-                         "echo " + answer + " | script -qec '\"$LOBELIA\" compare --accept; " +
-                         "echo ended with $?' typescript >/dev/null; cat typescript",
-                     directory_.path())
-        .output_tail;
   }
 };
 
@@ -222,53 +213,6 @@ TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
     const ProcessResult result = compare({});
     EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 3) << text << result.output_tail;
   }
-}
-
-TEST_F(CompareProject, IsAcceptedOnlyByAPersonWhoSaysYes) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("mine/new.exr", 0.3f);
-  project(kTwoFolders);
-  const std::string before = text("truth/x.exr");
-  const ProcessResult unattended = compare({"--accept"});
-  EXPECT_EQ(unattended.exit_code, 2);
-  EXPECT_THAT(unattended.output_tail, HasSubstr("somebody has to look"));
-  EXPECT_THAT(accept_at_a_terminal("no"), HasSubstr("nothing was changed"));
-  EXPECT_EQ(text("truth/x.exr"), before);
-  const std::string in_ci = accept_at_a_terminal("yes", "true");
-  EXPECT_THAT(in_ci, HasSubstr("this is a CI job"));
-  EXPECT_EQ(text("truth/x.exr"), before);
-  const std::string accepted = accept_at_a_terminal("yes");
-  EXPECT_THAT(accepted, HasSubstr("2 references were replaced"));
-  EXPECT_THAT(accepted, HasSubstr("ended with 0"));
-  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
-  EXPECT_EQ(text("truth/new.exr"), text("mine/new.exr"));
-  EXPECT_EQ(compare({}).exit_code, 0);
-}
-
-TEST_F(CompareProject, IsNoSuccessIfWhatIsAcceptedLeavesAFailure) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("truth/gone.exr", 0.3f);
-  project(kTwoFolders);
-  const std::string accepted = accept_at_a_terminal("yes");
-  EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
-  EXPECT_THAT(accepted, HasSubstr("ended with 1"));
-}
-
-TEST_F(CompareProject, TakesNoPictureThatIsNotFiniteForAReference) {
-  grey("mine/x.exr", std::numeric_limits<float>::quiet_NaN()), grey("truth/x.exr", 0.6f);
-  project(kTwoFolders);
-  const std::string said = accept_at_a_terminal("yes");
-  EXPECT_THAT(said, HasSubstr("left alone: mine/x.exr has values that are not finite"));
-  EXPECT_THAT(said, HasSubstr("ended with 1"));
-}
-
-TEST_F(CompareProject, AcceptedThroughALinkReplacesTheLinkAndNotTheFileBehindIt) {
-  grey("mine/x.exr", 0.5f), grey("archive/x.exr", 0.6f);
-  fs::create_directories(path("truth"));
-  fs::create_symlink(path("archive/x.exr"), path("truth/x.exr"));
-  project(kTwoFolders);
-  const std::string archived = text("archive/x.exr");
-  accept_at_a_terminal("yes");
-  EXPECT_EQ(text("archive/x.exr"), archived);
-  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
 }
 
 TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {

@@ -1,0 +1,94 @@
+#include "cli/replaced_references.hpp"
+
+#include <algorithm>
+
+#include "core/replacement.hpp"
+#include "core/standard_streams.hpp"
+#include "core/text.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> given_references(const PairingChoice& choice) {
+  std::vector<std::string> given = choice.also_accepted;
+  // One folder can hold all sets.
+  if (!choice.given.empty())
+    given.push_back(choice.given[std::min(kReferenceSet, choice.given.size() - 1)]);
+  return given;
+}
+
+/// Whether anything was left to finish.
+bool finish_all(const std::set<fs::path>& places) {
+  bool any = false;
+  for (const fs::path& folder : replaced_above(places)) {
+    const fs::path shown = shortest_path(folder);
+    const ReplacementOutcome done = finish_replacement(shown);
+    if (done.way == ReplacementOutcome::Way::kNothing) continue;
+    any = true;
+    say("lobelia: {}: an acceptance was interrupted; {} references are {}\n",
+        printable_path(shown.string()), done.files.size() - done.left.size(),
+        done.way == ReplacementOutcome::Way::kReplaced ? "replaced now" : "what they were before");
+    for (const fs::path& left : done.left)
+      say("lobelia: {}: was changed since, and stays as it is\n", printable_path(left.string()));
+  }
+  return any;
+}
+
+}  // namespace
+
+std::vector<fs::path> folders_of_references(const PairingChoice& choice) {
+  std::vector<fs::path> folders;
+  for (const std::string& given : given_references(choice)) {
+    std::error_code unknown;
+    const fs::path real = fs::canonical(given, unknown);
+    if (!unknown && fs::is_directory(real, unknown)) folders.push_back(real);
+  }
+  return folders;
+}
+
+std::set<fs::path> places_of_references(const PairingChoice& choice) {
+  std::set<fs::path> places;
+  for (const std::string& given : given_references(choice)) {
+    std::error_code unknown;
+    const fs::path path = given;
+    places.insert(fs::is_directory(path, unknown) ? path : path.parent_path());
+  }
+  return places;
+}
+
+std::set<fs::path> places_of_references(const Pairing& pairing) {
+  std::set<fs::path> places;
+  for (const PictureRow& row : pairing.rows)
+    for (const std::string& file : pairing.references_of(row))
+      places.insert(fs::path(file).parent_path());
+  return places;
+}
+
+std::vector<fs::path> replaced_above(const std::set<fs::path>& places) {
+  std::vector<fs::path> found;
+  std::set<fs::path> seen;
+  for (const fs::path& place : places) {
+    std::error_code unknown;
+    fs::path folder = fs::canonical(place.empty() ? fs::path(".") : place, unknown);
+    for (; !unknown && seen.insert(folder).second; folder = folder.parent_path())
+      if (has_replacements(folder)) found.push_back(folder);
+  }
+  return found;
+}
+
+Pairing pair_finished(const PairingChoice& choice) {
+  finish_all(places_of_references(choice));
+  Pairing pairing = pair_pictures(choice);
+  // Some may lie deeper, and tables say only now where theirs lie.
+  return finish_all(places_of_references(pairing)) ? pair_pictures(choice) : pairing;
+}
+
+fs::path shortest_path(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path relative = fs::proximate(path, unknown);
+  return unknown || relative.empty() || *relative.begin() == ".." ? path : relative;
+}
+
+}  // namespace lobelia::cli

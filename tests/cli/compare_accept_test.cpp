@@ -1,0 +1,294 @@
+// `lobelia compare --accept` at a terminal, and `lobelia accept --undo`.
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "core/replacement.hpp"
+#include "tests/cli/compare_pictures_fixture.hpp"
+
+namespace lobelia {
+namespace {
+
+using namespace fixtures;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+class CompareAccept : public ComparePictures {
+ protected:
+  /// A picture of one grey.
+  void grey(const std::string& name, float value, const std::vector<ExrChannel>& more = {}) {
+    fs::create_directories(path(name).parent_path());
+    flat(name, value, more);
+  }
+  /// In folders of these names.
+  void differing_pair(const std::string& name) {
+    grey("mine/" + name, 0.5f), grey("truth/" + name, 0.6f);
+  }
+  /// `lobelia compare OPTIONS --accept` at a terminal of its own. Once it asks, the shell does what comes `meanwhile`, and
+  /// types the answer.
+  std::string accept(const std::string& options, const std::string& answer = "yes",
+                     const std::string& meanwhile = "", const std::string& environment = "") {
+    const std::string command =
+        environment + " \"$LOBELIA\" compare " + options + " --accept; echo ended with $?";
+    return run_shell(
+               "export LOBELIA; unset CI JENKINS_URL TEAMCITY_VERSION TF_BUILD; trap '' PIPE\n"
+               "rm -f keys typescript; mkfifo keys\n"
+               "{ script -qefc '" +
+                   command +
+                   "' typescript < keys > /dev/null; echo ended >> typescript; } &\n"
+                   "exec 3> keys\n"
+                   "until grep -q 'Type yes\\|^ended' typescript 2> /dev/null; do sleep 0.01; done\n" +
+                   meanwhile + "\necho " + answer + " >&3\nexec 3>&-\nwait\ncat typescript",
+               directory_.path())
+        .output_tail;
+  }
+  ProcessResult undo(const std::vector<std::string>& references = {"truth"}) {
+    std::vector<std::string> arguments{"accept", "--undo"};
+    arguments.insert(arguments.end(), references.begin(), references.end());
+    return run_lobelia(arguments, directory_.path());
+  }
+  unsigned mode(const std::string& name) const {
+    struct stat status {};
+    EXPECT_EQ(::stat(path(name).c_str(), &status), 0);
+    return status.st_mode & 07777u;
+  }
+};
+
+constexpr char kMineAndTruth[] = "judged = [\"mine\"]\nreferences = [\"truth\"]\n";
+
+TEST_F(CompareAccept, OnlyAPersonWhoSaysYesAccepts) {
+  differing_pair("x.exr"), grey("mine/new.exr", 0.3f);
+  file("lobelia.toml", kMineAndTruth);
+  const std::string before = text("truth/x.exr");
+  const ProcessResult unattended = compare({"--accept"});
+  EXPECT_EQ(unattended.exit_code, 2);
+  EXPECT_THAT(unattended.output_tail, HasSubstr("somebody has to look"));
+  EXPECT_THAT(accept("", "no"), HasSubstr("nothing was changed"));
+  EXPECT_EQ(text("truth/x.exr"), before);
+  EXPECT_THAT(accept("", "yes", "", "CI=true"), HasSubstr("this is a CI job"));
+  EXPECT_EQ(text("truth/x.exr"), before);
+  const std::string accepted = accept("");
+  EXPECT_THAT(accepted, HasSubstr("2 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("ended with 0"));
+  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
+  EXPECT_EQ(text("truth/new.exr"), text("mine/new.exr"));
+  const ProcessResult again = compare({});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.output_tail, HasSubstr("2 pairs: 2 pass"));
+  EXPECT_THAT(again.output_tail, Not(HasSubstr("are no pictures")))
+      << "what was kept is no picture";
+}
+
+TEST_F(CompareAccept, AFailureThatIsLeftIsNoSuccess) {
+  differing_pair("x.exr"), grey("truth/gone.exr", 0.3f);
+  const std::string accepted = accept("mine truth");
+  EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("ended with 1"));
+}
+
+TEST_F(CompareAccept, APairThatHasAWarningTooIsReplacedOnce) {
+  differing_pair("x.exr");
+  const std::string accepted = accept("mine truth --warn mae=1e-9");
+  EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("ended with 0"));
+}
+
+TEST_F(CompareAccept, APictureThatIsNotFiniteOrNoPictureIsLeftAlone) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  grey("mine/x.exr", kNaN), grey("truth/x.exr", 0.6f), grey("mine/new.exr", kNaN);
+  file("mine/garbage.exr", "garbage");
+  const std::string said = accept("mine truth");
+  EXPECT_THAT(said, HasSubstr("left alone: mine/x.exr has values that are not finite"));
+  EXPECT_THAT(said, HasSubstr("left alone: mine/new.exr has values that are not finite"));
+  EXPECT_THAT(said, HasSubstr("left alone: mine/garbage.exr: not a readable picture"));
+  EXPECT_THAT(said, HasSubstr("ended with 1"));
+  EXPECT_EQ(files_in(path("truth")), 1u);
+}
+
+TEST_F(CompareAccept, AReferenceThatIsALinkIsReplacedAndNotTheFileBehindIt) {
+  grey("mine/x.exr", 0.5f), grey("archive/x.exr", 0.6f);
+  fs::create_directories(path("truth"));
+  fs::create_symlink(path("archive/x.exr"), path("truth/x.exr"));
+  const std::string archived = text("archive/x.exr");
+  accept("mine truth");
+  EXPECT_EQ(text("archive/x.exr"), archived);
+  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
+}
+
+TEST_F(CompareAccept, NothingIsWrittenThroughALinkToAFolder) {
+  differing_pair("y.exr"), grey("mine/sub/x.exr", 0.5f), grey("mine/sub/new.exr", 0.5f);
+  grey("outside/x.exr", 0.6f), grey("mine/lost/x.exr", 0.5f);
+  fs::create_directory_symlink("../outside", path("truth/sub"));
+  fs::create_directory_symlink("nowhere", path("truth/lost"));
+  const std::string before = text("outside/x.exr");
+  const std::string said = accept("mine truth");
+  for (const char* name : {"sub/x.exr", "sub/new.exr"})
+    EXPECT_THAT(said, HasSubstr(fmt::format("left alone: truth/{}: a link leads out", name)));
+  EXPECT_THAT(said, HasSubstr("left alone: truth/lost/x.exr: "));
+  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(said, HasSubstr("ended with 1"));
+  EXPECT_EQ(text("outside/x.exr"), before);
+  EXPECT_EQ(files_in(path("outside")), 1u);
+  EXPECT_FALSE(fs::exists(path("truth/nowhere")));
+  EXPECT_EQ(text("truth/y.exr"), text("mine/y.exr"));
+}
+
+TEST_F(CompareAccept, APictureThatIsThereIsNotCalledNew) {
+  differing_pair("y.exr"), grey("mine/loop/y.exr", 0.7f);
+  fs::create_directory_symlink(".", path("truth/loop"));
+  const std::string said = accept("mine truth");
+  EXPECT_THAT(said, HasSubstr("left alone: truth/loop/y.exr: is there, and was not compared"));
+  EXPECT_EQ(text("truth/y.exr"), text("mine/y.exr"));
+}
+
+TEST_F(CompareAccept, APartOfAPictureDoesNotReplaceTheWhole) {
+  const auto layer = [&](float value) {
+    return std::vector{channel("diffuse.R", value), channel("diffuse.G", value),
+                       channel("diffuse.B", value)};
+  };
+  std::vector<ExrChannel> whole = layer(0.6f);
+  whole.push_back(channel("Z", 1.0f));
+  exr("part.exr", 32, 32, layer(0.5f));
+  flat("truth.exr", 0.6f, whole);
+  const std::string before = text("truth.exr");
+  const std::string said = accept("part.exr truth.exr --layer diffuse");
+  EXPECT_THAT(said, HasSubstr("left alone: truth.exr: not compared: layers of the picture, 'Z'"));
+  EXPECT_THAT(said, HasSubstr("ended with 1"));
+  flat("mine.exr", 0.5f, whole);
+  for (const auto& [options, why] : {std::pair("", "not compared: layers "),
+                                     {"--crop 0,0,8,8", "(--crop)"},
+                                     {"--all-layers --ignore rect:0,0,8,8", "(--ignore)"},
+                                     {"--all-layers --mask rect:0,0,8,8", "(--mask or --scene)"}})
+    EXPECT_THAT(accept(std::string("mine.exr truth.exr ") + options),
+                AllOf(HasSubstr("left alone: truth.exr: "), HasSubstr(why)));
+  EXPECT_EQ(text("truth.exr"), before);
+  EXPECT_THAT(accept("mine.exr truth.exr --all-layers"), HasSubstr("ended with 0"));
+  EXPECT_EQ(text("truth.exr"), text("mine.exr"));
+}
+
+TEST_F(CompareAccept, WhatChangesWhileTheQuestionIsOpenIsNotAccepted) {
+  differing_pair("x.exr"), differing_pair("y.exr"), grey("theirs.exr", 0.9f);
+  const std::string x = text("truth/x.exr"), y = text("truth/y.exr");
+  std::string said = accept("mine truth", "yes", "printf garbage > mine/y.exr");
+  EXPECT_THAT(said, HasSubstr("mine/y.exr: was changed after it was compared"));
+  EXPECT_THAT(said, HasSubstr("ended with 3"));
+  EXPECT_EQ(text("truth/x.exr"), x) << "all or none";
+  EXPECT_EQ(text("truth/y.exr"), y);
+  differing_pair("y.exr");
+  said = accept("mine truth", "yes", "cp theirs.exr truth/y.exr");
+  EXPECT_THAT(said, HasSubstr("truth/y.exr: was changed after it was compared"));
+  EXPECT_THAT(said, HasSubstr("ended with 3"));
+  EXPECT_EQ(text("truth/x.exr"), x);
+  EXPECT_EQ(text("truth/y.exr"), text("theirs.exr"));
+}
+
+TEST_F(CompareAccept, AnAcceptanceKeepsModesAndIsUndone) {
+  differing_pair("x.exr"), grey("mine/deep/new.exr", 0.3f);
+  fs::permissions(path("truth/x.exr"), fs::perms(0600));
+  const std::string before = text("truth/x.exr");
+  EXPECT_THAT(accept("mine truth"), HasSubstr("'lobelia accept --undo truth' puts"));
+  EXPECT_EQ(mode("truth/x.exr"), 0600u);
+  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
+  const ProcessResult undone = undo();
+  EXPECT_EQ(undone.exit_code, 0) << undone.output_tail;
+  EXPECT_THAT(undone.output_tail, HasSubstr("truth/x.exr\n"));
+  EXPECT_THAT(undone.output_tail, HasSubstr("2 references are what they were before"));
+  EXPECT_EQ(text("truth/x.exr"), before);
+  EXPECT_EQ(mode("truth/x.exr"), 0600u);
+  EXPECT_FALSE(fs::exists(path("truth/deep")));
+  expect_one_line(undo(), 3, "no acceptance to undo");
+  expect_one_line(undo({"nowhere"}), 3, "nowhere: no such file or folder");
+  EXPECT_EQ(run_lobelia({"accept", "truth"}, directory_.path()).exit_code, 2);
+}
+
+TEST_F(CompareAccept, AnUndoRefusesWhatWasChangedSince) {
+  differing_pair("x.exr");
+  file("lobelia.toml", kMineAndTruth);
+  accept("");
+  grey("truth/x.exr", 0.9f);
+  const std::string theirs = text("truth/x.exr");
+  const ProcessResult refused = undo({});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.output_tail, HasSubstr("truth/x.exr: was changed after it was accepted"));
+  EXPECT_EQ(text("truth/x.exr"), theirs);
+  fs::copy_file(path("mine/x.exr"), path("truth/x.exr"), fs::copy_options::overwrite_existing);
+  EXPECT_EQ(undo({}).exit_code, 0) << "without an argument, the references of the project";
+}
+
+TEST_F(CompareAccept, AcceptancesOfFilesAndTablesAreUndoneToo) {
+  differing_pair("x.exr"), grey("other/truth/y.exr", 0.6f), grey("mine/y.exr", 0.5f);
+  const std::string x = text("truth/x.exr"), y = text("other/truth/y.exr");
+  EXPECT_THAT(accept("mine/x.exr truth/x.exr"), HasSubstr("ended with 0"));
+  EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
+  EXPECT_EQ(undo({"truth/x.exr"}).exit_code, 0);
+  EXPECT_EQ(text("truth/x.exr"), x);
+  file("pairs.csv", "mine,truth\nmine/x.exr,truth/x.exr\nmine/y.exr,other/truth/y.exr\n");
+  EXPECT_THAT(accept("--pairs pairs.csv"), HasSubstr("2 references were replaced"));
+  EXPECT_EQ(undo({"truth"}).exit_code, 0) << "they lie in two folders, and are one acceptance";
+  EXPECT_EQ(text("truth/x.exr"), x);
+  EXPECT_EQ(text("other/truth/y.exr"), y);
+}
+
+TEST_F(CompareAccept, AnInterruptedAcceptanceIsFinishedByTheNextComparison) {
+  differing_pair("x.exr"), differing_pair("y.exr");
+  const auto of = [&](const std::string& name) {
+    return Replacement{path("mine/" + name), sha256(text("mine/" + name)), name,
+                       sha256(text("truth/" + name))};
+  };
+  const std::vector<Replacement> files{of("x.exr"), of("y.exr")};
+  replace_files(path("truth"), files);
+  // As if it was killed before the last file had its place.
+  const fs::path kept = path("truth") / kReplacedName;
+  fs::rename(kept / "last", kept / "now");
+  fs::rename(path("truth/y.exr"), kept / "now/new-1");
+  fs::create_hard_link(kept / "now/old-1", path("truth/y.exr"));
+  const ProcessResult next = compare({"mine", "truth", "-q"});
+  EXPECT_EQ(next.exit_code, 0);
+  EXPECT_THAT(next.output_tail,
+              HasSubstr("truth: an acceptance was interrupted; 2 references are replaced now"));
+  EXPECT_EQ(text("truth/y.exr"), text("mine/y.exr"));
+}
+
+TEST_F(CompareAccept, AKillAtAnyCallLeavesAllReferencesOldOrAllNew) {
+  // By a link, because the list of libraries is cut at blanks and the build's directory may have one.
+  fs::create_symlink(LOBELIA_DYING_CALLS, path("dying_calls.so"));
+  const auto dying = [&](const std::string& variable) {
+    return "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=\"$PWD/dying_calls.so\" " + variable;
+  };
+  const auto begin_anew = [&] {
+    fs::remove_all(path("truth"));
+    for (const char* name : {"x.exr", "y.exr", "z.exr"}) differing_pair(name);
+  };
+  const auto replaced = [&] {
+    std::size_t count = 0;
+    for (const char* name : {"/x.exr", "/y.exr", "/z.exr"})
+      count += text("truth" + std::string(name)) == text("mine" + std::string(name)) ? 1u : 0u;
+    return count;
+  };
+  begin_anew();
+  accept("mine truth", "yes", "", dying("COUNT_CALLS=calls"));
+  const int calls = std::stoi(text("calls"));
+  EXPECT_EQ(replaced(), 3u);
+  ASSERT_GE(calls, 6) << "each of these is a moment at which it may be killed";
+  for (int call = 1; call <= calls && !HasFailure(); ++call) {
+    SCOPED_TRACE(fmt::format("killed at call {} of {}", call, calls));
+    begin_anew();
+    EXPECT_THAT(accept("mine truth", "yes", "", dying(fmt::format("DIE_AT={}", call))),
+                HasSubstr("ended with 137"));
+    const ProcessResult next = compare({"mine", "truth"});
+    EXPECT_EQ(next.exit_code, replaced() == 3 ? 0 : 1) << next.output_tail;
+    EXPECT_TRUE(replaced() == 0 || replaced() == 3) << replaced();
+    for (const auto& entry : fs::directory_iterator(path("truth")))
+      EXPECT_TRUE(entry.path().extension() == ".exr" || entry.path().filename() == kReplacedName)
+          << entry.path();
+    accept("mine truth");
+    EXPECT_EQ(replaced(), 3u);
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
