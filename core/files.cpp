@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/no_resources.hpp"
 #include "core/removal.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -45,6 +46,12 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
 }
 
 thread_local int flushes_later = 0;  ///< FlushLater objects of the thread
+
+void require_bound(const InputFile& file, std::uint64_t bytes, std::uint64_t max_bytes) {
+  if (bytes > max_bytes)
+    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read",
+                                              file.path().string(), bytes, max_bytes));
+}
 
 /// Whether the path still names the open file.
 bool is_at(const fs::path& path, int fd) {
@@ -90,14 +97,32 @@ std::size_t read_in_pieces(int file, void* target, std::size_t size, std::size_t
   return done;
 }
 
+void read_pieces(const InputFile& file, std::uint64_t max_bytes,
+                 const std::function<void(std::string_view)>& take) {
+  constexpr std::size_t kPieceBytes = std::size_t{1} << 17;
+  require_bound(file, file.size(), max_bytes);
+  std::vector<char> piece(std::min(kPieceBytes, std::size_t(file.size()) + 1));
+  std::uint64_t done = 0, next_look = kBytesBetweenLooks;
+  while (true) {
+    const ssize_t n = retried(
+        [&] { return ::pread(file.descriptor(), piece.data(), piece.size(), off_t(done)); });
+    if (n < 0) throw failure_of(file.path().string() + ": cannot read", errno, ExitCode::kInput);
+    if (n == 0) return;
+    done += std::uint64_t(n);
+    require_bound(file, done, max_bytes);  // it may grow meanwhile
+    take({piece.data(), std::size_t(n)});
+    if (done < next_look) continue;
+    throw_if_interrupted();
+    next_look = done + kBytesBetweenLooks;
+  }
+}
+
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   return read_file(InputFile(path), max_bytes);
 }
 
 std::string read_file(const InputFile& file, std::uint64_t max_bytes) {
-  if (file.size() > max_bytes)
-    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read",
-                                              file.path().string(), file.size(), max_bytes));
+  require_bound(file, file.size(), max_bytes);
   std::string text(std::size_t(file.size()), '\0');
   const std::size_t size = read_in_pieces(file.descriptor(), text.data(), text.size());
   if (size < text.size() && errno != 0)
@@ -174,17 +199,7 @@ void PartFile::append(std::string_view text) {
 }
 
 void PartFile::append_file(const fs::path& path) {
-  const InputFile from(path);
-  std::vector<std::uint8_t> piece(std::size_t{1} << 18);
-  for (std::size_t done = 0;;) {
-    throw_if_interrupted();
-    const std::size_t n = read_at(from.descriptor(), piece.data(), piece.size(), done);
-    if (n < piece.size() && errno != 0)
-      throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
-    append(std::span(piece).first(n));
-    if (n < piece.size()) return;
-    done += n;
-  }
+  read_pieces(InputFile(path), kMostHashedBytes, [this](std::string_view piece) { append(piece); });
 }
 
 void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes) {

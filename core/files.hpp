@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
@@ -42,14 +43,19 @@ bool is_below(const std::filesystem::path& path, const std::filesystem::path& fo
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 std::string read_file(const InputFile& file, std::uint64_t max_bytes);
 
-/// What is read or hashed between two looks for an interruption. Smaller files are read to the end.
+/// Gives the pieces of the file to `take`, in order. Throws Error(kInput) if it cannot be read, or has over `max_bytes` or
+/// grows beyond them; Error(kInterrupted) as read_in_pieces().
+void read_pieces(const InputFile& file, std::uint64_t max_bytes,
+                 const std::function<void(std::string_view)>& take);
+
+/// Bytes that are read or hashed between two looks for an interruption. Smaller files are read to the end.
 inline constexpr std::size_t kBytesBetweenLooks = std::size_t{16} << 20;
 
 /// As read_at(), for files of others, which may be large. Throws Error(kInterrupted) if interrupted().
 std::size_t read_in_pieces(int file, void* target, std::size_t size, std::size_t offset = 0);
 
-/// What is at `path`, behind all links; not_found if nothing is. Throws an error of the code `otherwise` where the system
-/// cannot tell, as on a fault of the disk or in a folder that may not be searched.
+/// The type of what is at `path`, behind all links; not_found if nothing is. Throws an error of the code `otherwise` where
+/// the system cannot tell, as on a fault of the disk or in a folder that may not be searched.
 std::filesystem::file_type file_type_at(const std::filesystem::path& path,
                                         ExitCode otherwise = ExitCode::kInput);
 
@@ -82,8 +88,8 @@ class PartFile {
   ~PartFile();
   void append(std::span<const std::uint8_t> bytes);
   void append(std::string_view text);
-  /// Appends the content of another file. Throws Error(kInput) if that cannot be read.
-  void append_file(const std::filesystem::path& file);
+  /// Appends the content of another file. Throws as sha256_of_file().
+  void append_file(const std::filesystem::path& path);
   /// Overwrites bytes that are there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }

@@ -7,9 +7,9 @@
 #include <cerrno>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/files.hpp"
 #include "core/no_resources.hpp"
-#include "core/picture_file.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -17,10 +17,6 @@ namespace {
 
 [[noreturn]] void cannot_change(const fs::path& path, int error) {
   throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
-}
-
-[[noreturn]] void cannot_copy(const fs::path& path, int error) {
-  throw failure_of(path.string() + ": cannot read", error, ExitCode::kInput);
 }
 
 class NewFile {
@@ -120,23 +116,10 @@ void write_in(const HeldDirectory& directory, const std::string& name, std::stri
 
 void copy_in(const HeldDirectory& directory, const std::string& name, const fs::path& from,
              const std::optional<FileStatus>& rights) {
-  const Descriptor source(::open(from.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  FileStatus status{};
-  if (!source || ::fstat(source.get(), &status) != 0) cannot_copy(from, errno);
-  if (!S_ISREG(status.st_mode))
-    throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", from.string()));
+  const InputFile source(from);
   // Nobody may read what nobody could read before, not even for a moment.
-  NewFile file(directory, name, rights ? (rights->st_mode & 0777u) | 0600u : 0666u);
-  std::string piece(std::size_t{1} << 20, '\0');
-  for (std::size_t done = 0, n = piece.size(); n == piece.size(); done += n) {
-    throw_if_interrupted();
-    if (done > kMaxPictureBytes)
-      throw Error(ExitCode::kInput, fmt::format("{}: has over {} bytes; at most these are copied",
-                                                from.string(), kMaxPictureBytes));
-    n = read_at(source.get(), piece.data(), piece.size(), done);
-    if (n < piece.size() && errno != 0) cannot_copy(from, errno);
-    file.append({piece.data(), n});
-  }
+  NewFile file(directory, name, rights ? 0600u : 0666u);
+  read_pieces(source, kMostHashedBytes, [&](std::string_view piece) { file.append(piece); });
   if (rights) file.take_rights(*rights);
   file.finish();
 }

@@ -43,7 +43,7 @@ void flush_names(const HeldDirectory& directory);
 /// Writes a file anew, to the disk. Throws Error(kOutput).
 void write_in(const HeldDirectory& directory, const std::string& name, std::string_view text);
 /// Copies `from`, through a link, to the disk. The copy gets the mode of `rights` and its group, if this user may set that.
-/// Throws Error(kInput) if `from` is not a regular file or over kMaxPictureBytes, Error(kOutput), Error(kInterrupted).
+/// Throws Error(kOutput), and for `from` as sha256_of_file().
 void copy_in(const HeldDirectory& directory, const std::string& name,
              const std::filesystem::path& from, const std::optional<FileStatus>& rights);
 
