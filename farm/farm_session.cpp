@@ -21,12 +21,9 @@ namespace {
 /// Neither may lie among the files of the other, which may be removed at any time.
 void require_apart(const fs::path& cache, const fs::path& directory) {
   const fs::path a = real_path(cache), b = real_path(directory);
-  const auto is_in = [](const fs::path& inner, const fs::path& outer) {
-    const fs::path between = inner.lexically_relative(outer);
-    return !between.empty() && *between.begin() != "..";
-  };
-  bool inside = is_in(a, b / "cells");
-  for (const char* part : {"results", "failures", "making"}) inside = inside || is_in(b, a / part);
+  bool inside = is_below(a, b / "cells");
+  for (const char* part : {"results", "failures", "making"})
+    inside = inside || is_below(b, a / part);
   if (inside)
     throw Error(
         ExitCode::kUsage,

@@ -58,7 +58,7 @@ void check_place(const fs::path& run, const fs::path& out, Form form) {
     throw failure_of(run.string() + ": cannot read", error.value(), ExitCode::kInput);
   const fs::path real_out = fs::weakly_canonical(out, error);
   if (error) refuse(out, error.message());
-  if (!real_run.empty() && std::ranges::mismatch(real_run, real_out).in1 == real_run.end())
+  if (!real_run.empty() && is_below(real_out, real_run))
     refuse(out, "is RUN or in it, which publishing must not change; give another name");
   const fs::file_status status = fs::symlink_status(out, error);
   if (status.type() == fs::file_type::none) refuse(out, error.message());

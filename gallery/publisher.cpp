@@ -30,8 +30,7 @@ bool is_path_of_plain_names(const std::string& name) {
 bool is_within(const fs::path& directory, const fs::path& path) {
   std::error_code error, other;
   const fs::path root = fs::canonical(directory, error), real = fs::canonical(path, other);
-  return !error && !other &&
-         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+  return !error && !other && is_below(real, root);
 }
 
 bool is_same_text(const fs::path& path, std::string_view content) {
