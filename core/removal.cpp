@@ -170,6 +170,10 @@ std::string HeldDirectory::why_not() const {
 
 bool HeldDirectory::is_missing() const { return !open_ && error_ == ENOENT; }
 
+bool HeldDirectory::is_fault() const {
+  return !open_ && error_ != ENOENT && error_ != ELOOP && error_ != ENOTDIR && error_ != EXDEV;
+}
+
 std::vector<std::string> HeldDirectory::names() const { return list(false); }
 std::vector<std::string> HeldDirectory::links() const { return list(true); }
 
@@ -246,6 +250,16 @@ bool Removal::keep(const fs::path& path, std::string why) {
   return false;
 }
 
+bool Removal::keep(const fs::path& path, int error) {
+  kept_.push_back({path, std::strerror(error), true});
+  return false;
+}
+
+bool Removal::keep(const HeldDirectory& missing) {
+  kept_.push_back({missing.path(), missing.why_not(), missing.is_fault()});
+  return false;
+}
+
 HeldDirectory Removal::directory(const fs::path& relative) const {
   HeldDirectory held = root_.copy();
   for (const fs::path& name : relative) held = held.below(name.string());
@@ -262,11 +276,11 @@ bool Removal::remove(const fs::path& relative) {
   const fs::path shown = root_.path() / relative;
   const std::string name = relative.filename().string();
   const HeldDirectory parent = directory(relative.parent_path());
-  if (!parent) return root_ && !parent.is_missing() ? keep(parent.path(), parent.why_not()) : false;
+  if (!parent) return root_ && !parent.is_missing() ? keep(parent) : false;
   struct stat status {};
-  if (!is_entry_name(name) || would_be_gone(relative) ||
-      ::fstatat(parent.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
-    return false;
+  if (!is_entry_name(name) || would_be_gone(relative)) return false;
+  if (::fstatat(parent.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+    return errno == ENOENT ? false : keep(shown, errno);
   const Owned kind = ours_.owned(relative);
   if (kind == Owned::kNo) return keep(shown, "not a file of this program");
   if (S_ISDIR(status.st_mode) && kind == Owned::kFile) return keep(shown, "a directory");
@@ -286,7 +300,7 @@ bool Removal::remove_at_once(const fs::path& relative, const fs::path& away) {
   const HeldDirectory from = directory(relative.parent_path()), to = directory(away.parent_path());
   if (!from || !to || ours_.owned(away) != Owned::kTree) return remove(relative);
   if (::renameat(from.fd(), relative.filename().c_str(), to.fd(), away.filename().c_str()) != 0)
-    return errno == ENOENT ? false : keep(root_.path() / relative, std::strerror(errno));
+    return errno == ENOENT ? false : keep(root_.path() / relative, errno);
   const auto listener = std::exchange(on_removed_, nullptr);
   const bool gone = remove(away);
   on_removed_ = listener;
@@ -306,7 +320,7 @@ bool Removal::remove_from(const HeldDirectory& parent, const std::string& name,
       allow_owner(parent.fd(), name);
       inner = parent.below(name);
     }
-    if (!inner) return inner.is_missing() || keep(shown, inner.why_not());
+    if (!inner) return inner.is_missing() || keep(inner);
     bool is_empty = true;
     for (const std::string& inside : inner.names()) {
       if (kind == Owned::kTree && depth == kMaxDepth)
@@ -322,7 +336,7 @@ bool Removal::remove_from(const HeldDirectory& parent, const std::string& name,
     int result = ::unlinkat(parent.fd(), name.c_str(), flags);
     if (result != 0 && errno == EACCES && depth > 0 && ::fchmod(parent.fd(), 0700) == 0)
       result = ::unlinkat(parent.fd(), name.c_str(), flags);
-    if (result != 0) return errno == ENOENT || keep(shown, std::strerror(errno));
+    if (result != 0) return errno == ENOENT || keep(shown, errno);
   } else if (depth == 0) {
     would_go_.insert(shown);
   }

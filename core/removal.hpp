@@ -36,6 +36,8 @@ class HeldDirectory {
   /// Why it holds none: "a symbolic link, which is not followed".
   std::string why_not() const;
   bool is_missing() const;
+  /// Whether the system could not open it: it is neither missing nor of another kind.
+  bool is_fault() const;
 
   std::vector<std::string> names() const;  ///< all entries, sorted
   std::vector<std::string> links() const;  ///< the symbolic links among them
@@ -84,6 +86,7 @@ class Removal {
   struct Kept {
     std::filesystem::path path;
     std::string why;
+    bool is_fault = false;  ///< whether the system failed; otherwise it is foreign or not empty
   };
   const std::vector<Kept>& kept() const { return kept_; }
 
@@ -96,6 +99,8 @@ class Removal {
   bool remove_from(const HeldDirectory& parent, const std::string& name,
                    const std::filesystem::path& shown, Owned kind, int depth);
   bool keep(const std::filesystem::path& path, std::string why);
+  bool keep(const std::filesystem::path& path, int error);
+  bool keep(const HeldDirectory& missing);
   bool would_be_gone(std::filesystem::path relative) const;
 
   Ownership ours_;

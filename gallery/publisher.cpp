@@ -183,11 +183,18 @@ void Publisher::remove_stale() {
                                                                         : Owned::kNo;
                           }});
   for (const std::string& name : earlier_) {
-    if (files_.contains(name) || !removal.remove(name)) continue;
+    if (files_.contains(name)) continue;
+    const std::size_t kept = removal.kept().size();
+    if (!removal.remove(name) && removal.kept().size() > kept) continue;
     // Only an empty directory is removed.
     for (fs::path up = fs::path(name).parent_path(); !up.empty() && removal.remove(up);)
       up = up.parent_path();
   }
+  // The list that stays names it still, so that the next publication tries again.
+  for (const Removal::Kept& kept : removal.kept())
+    if (kept.is_fault)
+      throw Error(ExitCode::kOutput,
+                  fmt::format("{}: cannot remove: {}", kept.path.string(), kept.why));
 }
 
 void Publisher::finish() {

@@ -49,6 +49,7 @@ class Publisher {
 
   /// Removes files that the earlier publication wrote and this one did not, with directories that become empty,
   /// and writes the new list. A file that is now behind a link out of the site is left alone.
+  /// Throws Error(kOutput) where the system cannot remove one.
   void finish();
 
  private:
