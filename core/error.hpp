@@ -41,12 +41,19 @@ class Error : public std::runtime_error {
         code_(code),
         lines_(std::move(lines)) {}
   ExitCode code() const { return code_; }
+  /// Whether the system failed, so that nothing is known of the file that was asked for. See tells_of_file().
+  bool is_fault() const { return is_fault_; }
+  Error& set_fault(bool is_fault) {
+    is_fault_ = is_fault;
+    return *this;
+  }
   /// Each is printed on a line of its own. A line break inside one comes from a file's name.
   const std::vector<std::string>& lines() const { return lines_; }
 
  private:
   ExitCode code_;
   std::vector<std::string> lines_;
+  bool is_fault_ = false;
 };
 
 }  // namespace lobelia

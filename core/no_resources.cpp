@@ -43,7 +43,9 @@ std::string lacking(const std::exception& error) {
         "failed to map segment", "cannot map zero-fill pages", "cannot change memory protections",
         "cannot extend global scope", "cannot create cache", "cannot create scope list",
         "cannot create search path", "cannot create shared object", "cannot create RUNPATH",
-        "cannot create TLS"})
+        "cannot create TLS",
+        // of oneTBB
+        "pthread_create has failed"})
     if (words.find(memory_word) != words.npos) return lacking(ENOMEM);
   return "";
 }
@@ -57,7 +59,8 @@ Error failure_of(const std::string& what, const std::string& lack, const char* w
 }  // namespace
 
 Error failure_of(const std::string& what, int error, ExitCode otherwise) {
-  return failure_of(what, lacking(error), std::strerror(error), otherwise);
+  return failure_of(what, lacking(error), std::strerror(error), otherwise)
+      .set_fault(!tells_of_file(error));
 }
 
 Error failure_of(const std::string& what, const std::exception& error, ExitCode otherwise) {

@@ -3,7 +3,6 @@
 #include "core/image_io.hpp"
 #include "gallery/half_picture.hpp"
 #include "gallery/page.hpp"
-#include "gallery/unless_input.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -11,7 +10,7 @@ namespace lobelia::gallery {
 const std::optional<Image>& CellPictures::of(const std::string& file) {
   const auto [place, is_new] = pictures_.try_emplace(file);
   if (!is_new) return place->second;
-  place->second = unless_input([&] { return std::optional(read_image(directory_ / file)); });
+  place->second = read_image(directory_ / file);
   return place->second;
 }
 

@@ -16,7 +16,8 @@ class CellPictures {
   /// Pictures that are in memory already, by the names that they would have.
   explicit CellPictures(std::map<std::string, std::optional<Image>> pictures)
       : pictures_(std::move(pictures)) {}
-  /// By its file's name. Empty if it cannot be read; throws Error of any kind but kInput.
+  /// By its file's name. Empty for a pair of which only one is a picture. Throws as read_image(): a picture with a flaw is not
+  /// asked for, so one that cannot be read is a fault of the system, and what is made without it would stay.
   const std::optional<Image>& of(const std::string& file);
 
  private:
@@ -31,8 +32,8 @@ void publish_small_pictures(const std::filesystem::path& run, CheckedCell& cell,
 /// A picture for a display, decoded once.
 class ShownPicture {
  public:
-  /// Empty if it cannot be read.
-  static std::optional<ShownPicture> read(const std::filesystem::path& file);
+  /// Throws Error(kInput) if it cannot be read.
+  static ShownPicture read(const std::filesystem::path& file);
   const Image& light() const { return light_; }
   /// With a longer side of at most `side`.
   DisplayImage within(int side) const;

@@ -31,16 +31,12 @@ std::vector<std::size_t> sorted(const ShownFarm& farm, std::vector<std::string>&
   return order;
 }
 
-/// Adds what is left of the picture, and says so in it. Returns the whole, unless it cannot be read.
+/// Adds what is left of the picture, and says so in it. Returns the whole, if there is one.
 std::optional<ShownPicture> shrink(const fs::path& folder, Picture& picture,
                                    std::vector<NamedPicture>& pictures) {
   if (!picture.shown()) return {};
-  std::optional<ShownPicture> whole = ShownPicture::read(folder / picture.file);
-  if (!whole) {
-    picture.why_not = "The picture " + picture.file + " cannot be read.";
-    return {};
-  }
-  DisplayImage image = whole->within(kPictureSide);
+  ShownPicture whole = ShownPicture::read(folder / picture.file);
+  DisplayImage image = whole.within(kPictureSide);
   picture.small = {picture.file, image.width, image.height};
   picture.is_published = false;
   pictures.push_back({link_to({picture.file}), std::move(image)});

@@ -9,7 +9,6 @@
 #include "core/image_io.hpp"
 #include "core/png_module.hpp"
 #include "core/sha256.hpp"
-#include "gallery/unless_input.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -54,8 +53,7 @@ Image reduced(const Image& image, int width, int height) {
 namespace {
 
 std::string small_png(const fs::path& picture, int width, int height) {
-  return unless_input(
-      [&] { return png_bytes(to_display(reduced(read_image(picture), width, height), 0)); });
+  return png_bytes(to_display(reduced(read_image(picture), width, height), 0));
 }
 
 std::string small_name(const std::string& file) {
@@ -76,13 +74,11 @@ Image light_of(const DisplayImage& shown) {
 
 }  // namespace
 
-std::optional<ShownPicture> ShownPicture::read(const fs::path& file) {
-  return unless_input([&]() -> std::optional<ShownPicture> {
-    std::optional<DisplayImage> plain =
-        png_table().read_codes(read_file(file, kMostShownBytes), kMostPlainSide);
-    Image light = plain ? light_of(*plain) : read_image(file);
-    return ShownPicture(std::move(plain), std::move(light));
-  });
+ShownPicture ShownPicture::read(const fs::path& file) {
+  std::optional<DisplayImage> plain =
+      png_table().read_codes(read_file(file, kMostShownBytes), kMostPlainSide);
+  Image light = plain ? light_of(*plain) : read_image(file);
+  return ShownPicture(std::move(plain), std::move(light));
 }
 
 DisplayImage ShownPicture::within(int side) const {

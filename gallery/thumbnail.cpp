@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/colour.hpp"
+#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
 #include "gallery/derived_pictures.hpp"
-#include "gallery/unless_input.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -90,9 +90,14 @@ DisplayImage small_thumbnail(const Image& ours, const fs::path& run, const Surfa
                              const CheckedCell& cell, int side) {
   const auto [width, height] = size_within(ours.width(), ours.height(), side);
   PixelFlags surface;
-  if (surface_of && cell.has_scene)
-    surface = unless_input(
-        [&] { return surface_of(run / "cells" / cell.id / "scene.xml", width, height); });
+  if (surface_of && cell.has_scene) {
+    try {
+      surface = surface_of(run / "cells" / cell.id / "scene.xml", width, height);
+    } catch (const Error& error) {
+      // A scene of another version has no surface here. After a fault, the picture without it would stay.
+      if (error.code() != ExitCode::kInput || error.is_fault()) throw;
+    }
+  }
   return thumbnail(ours, width, height, surface);
 }
 
@@ -107,8 +112,7 @@ void publish_thumbnail(const fs::path& run, const SurfaceOf& surface_of, Checked
       has_scene ? hex(sha256_of_file(directory / "scene.xml")) : std::string("no scene"));
   if (publisher.derive("cells/" + cell.id + "/thumbnail.png", key, [&] {
         const auto shown = ShownPicture::read(directory / ours->png.file);
-        if (!shown) return std::string();
-        return png_bytes(small_thumbnail(shown->light(), run, surface_of, cell, kThumbnailLonger));
+        return png_bytes(small_thumbnail(shown.light(), run, surface_of, cell, kThumbnailLonger));
       })) {
     const auto [width, height] = size_within(ours->png.width, ours->png.height, kThumbnailLonger);
     cell.thumbnail = {"thumbnail.png", width, height};

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cerrno>
 #include <filesystem>
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "core/no_resources.hpp"
+#include "gallery/derived_pictures.hpp"
 #include "gallery/gallery.hpp"
 #include "records/comparison.hpp"
 #include "tests/gallery/fake_farm.hpp"
@@ -176,6 +179,22 @@ TEST(Thumbnail, IsMadeWithoutTheSceneWhereThatCannotBeRead) {
   EXPECT_TRUE(thumbnail(farm, [](const auto&, int, int) -> PixelFlags {
     throw Error(ExitCode::kInput, "a scene of another version");
   }));
+}
+
+TEST(Thumbnail, IsNotMadeWhereTheSceneCouldNotBeReadThisTime) {
+  const FakeFarm farm;
+  put_highlight(farm, 10, 10, 40);
+  EXPECT_THROW(thumbnail(farm,
+                         [](const auto&, int, int) -> PixelFlags {
+                           throw failure_of("scene.xml: cannot read", EIO, ExitCode::kInput);
+                         }),
+               Error)
+      << "it would stay as it is, without the surface";
+}
+
+TEST(CellPictures, StopThePublicationWhereASoundFileCannotBeRead) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(CellPictures(directory.path()).of("lobelia.exr"), Error);
 }
 
 }  // namespace
