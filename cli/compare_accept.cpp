@@ -84,7 +84,9 @@ void look_at_picture(NewReference& one) try {
     one.refusal = printable_path(one.from.string()) + ": was changed while it was read";
 } catch (const Error& error) {
   if (error.code() != ExitCode::kInput) throw;
-  one.refusal = printable_path(error.what());
+  // What went wrong with the reader does not name the picture.
+  const std::string why = error.what(), from = one.from.string();
+  one.refusal = printable_path(why.starts_with(from) ? why : from + ": " + why);
 }
 
 /// `to` without links on the way. A link to nothing stays. Throws as real_path().
@@ -100,8 +102,14 @@ std::string why_no_place(const fs::path& place, const std::string& folder) {
   for (fs::path part = place.parent_path(); part != part.parent_path(); part = part.parent_path())
     if (fs::is_symlink(part, unknown))
       return printable_path(part.string()) + " is a link to nothing";
-  const bool is_free = fs::symlink_status(place, unknown).type() == fs::file_type::not_found;
-  return is_free ? "" : "is there, and was not compared";
+  switch (fs::symlink_status(place, unknown).type()) {
+    case fs::file_type::not_found:
+      return "";
+    case fs::file_type::none:
+      return "cannot be looked at: " + unknown.message();
+    default:
+      return "is there, and was not compared";
+  }
 }
 
 /// The pictures that do not pass, and those without a reference where it is clear where that would lie.
