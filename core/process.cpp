@@ -208,6 +208,8 @@ class Running {
     const bool told = line_ && receive(report);
     rusage used{};
     const int own = wait(&used);
+    if (lost_ != 0)
+      throw failure_of("a program: cannot tell how it ended", lost_, ExitCode::kEngine);
     // A keeper without a report was killed itself.
     const int status = told ? report.status : own;
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -239,15 +241,20 @@ class Running {
     start(std::move(request));
     theirs.close();  // otherwise receive() would wait for a keeper that is gone
     // The end of a keeper that is killed before its first report is found later, like any other end.
-    if (KeeperReport report; receive(report) && report.start_error != 0) {
+    KeeperReport report;
+    const bool told = receive(report);
+    if (const int error = told ? report.start_error : lost_) {
+      line_.reset();  // ends a keeper that still has something to do
       wait();
-      cannot_start(program, report.start_error);
+      cannot_start(program, error);
     }
     interruptible_.emplace(pid_);
   }
-  bool receive(KeeperReport& report) const {
-    return retried([&] { return ::recv(line_->get(), &report, sizeof report, 0); }) ==
-           sizeof report;
+  /// False if the keeper is gone, and where the system failed.
+  bool receive(KeeperReport& report) {
+    const ssize_t n = retried([&] { return ::recv(line_->get(), &report, sizeof report, 0); });
+    lost_ = n < 0 ? errno : 0;
+    return n == sizeof report;
   }
   int wait(rusage* used = nullptr) {
     int status = 0;
@@ -261,6 +268,7 @@ class Running {
   bool reaped_ = false;
   ProcessLimits limits_;
   std::optional<Descriptor> line_;  ///< with a keeper
+  int lost_ = 0;                    ///< errno, where its report could not be received
   std::optional<Descriptor> end_;   ///< without one: a pidfd
   std::optional<InterruptibleProcess> interruptible_;
 };
