@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "cli/compare_arguments.hpp"
 #include "cli/output_files.hpp"
 #include "core/files.hpp"
+#include "core/removal.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::cli {
@@ -75,6 +77,9 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
     for (const fs::path& file : *files) outputs.writes(file);
   for (const fs::path& file : reports) require_writable(file);
   if (!one && !job.difference.path.empty()) make_directories(job.difference.path);
+  std::set<fs::path> folders;
+  for (const fs::path& file : pictures) folders.insert(file.parent_path());
+  for (const fs::path& folder : folders) remove_abandoned_parts(HeldDirectory(folder));
 }
 
 bool prints_report(const CompareArguments& options) {

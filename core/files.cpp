@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <utility>
 
 #include "core/error.hpp"
@@ -126,8 +125,7 @@ std::string read_file(const InputFile& file, std::uint64_t max_bytes) {
   std::string text(std::size_t(file.size()), '\0');
   const std::size_t size = read_in_pieces(file.descriptor(), text.data(), text.size());
   if (size < text.size() && errno != 0)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: cannot read: {}", file.path().string(), std::strerror(errno)));
+    throw failure_of(file.path().string() + ": cannot read", errno, ExitCode::kInput);
   text.resize(size);
   return text;
 }
@@ -168,7 +166,9 @@ PartFile::PartFile(const fs::path& path, AtLink at_link)
           if (!file_) output_error(path, errno);
           ::flock(file_.get(), LOCK_EX);  // the lock tells others that it is not abandoned
           if (is_at(part, file_.get())) return part;
-          // Another machine, which does not know our process, removed it before it was locked.
+          // Another machine, which does not know our process, removed it before it was locked; or we could not look.
+          file_.close();
+          remove_part(part);
         }
       }) {}
 
@@ -330,7 +330,9 @@ fs::path place_for_temporaries() {
   return place;
 }
 
-TemporaryDirectory::TemporaryDirectory() : TemporaryDirectory(place_for_temporaries()) {}
+TemporaryDirectory::TemporaryDirectory() : TemporaryDirectory(place_for_temporaries()) {
+  remove_abandoned_temporaries();
+}
 
 TemporaryDirectory::TemporaryDirectory(const fs::path& parent)
     : path_([&] {
@@ -352,9 +354,12 @@ TemporaryDirectory::TemporaryDirectory(const fs::path& parent)
 TemporaryDirectory::~TemporaryDirectory() { remove_temporary(path()); }
 
 void remove_abandoned_temporaries() {
-  std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  if (!error) remove_dead_temporaries(parent);
+  [[maybe_unused]] static const bool once = [] {
+    std::error_code error;
+    const fs::path parent = fs::temp_directory_path(error);
+    if (!error) remove_dead_temporaries(parent);
+    return true;
+  }();
 }
 
 }  // namespace lobelia

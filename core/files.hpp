@@ -166,7 +166,7 @@ class TemporaryDirectory {
   TemporaryPath path_;
 };
 
-/// Removes the TemporaryDirectories that killed processes of this user left behind.
+/// Removes the TemporaryDirectories in $TMPDIR that killed processes of this user left behind, once in each process.
 void remove_abandoned_temporaries();
 
 }  // namespace lobelia

@@ -79,11 +79,11 @@ void check_place(const fs::path& run, const fs::path& out, Form form) {
 fs::path without_slash(const fs::path& out) { return out.has_filename() ? out : out.parent_path(); }
 
 PublishedGallery write_folder(const fs::path& run, GalleryOptions options, const fs::path& out) {
-  if (file_type_at(out, ExitCode::kOutput) != fs::file_type::not_found)
-    return write_gallery(run, options);
   const fs::path parent = out.has_parent_path() ? out.parent_path() : fs::path(".");
   make_directories(parent);
   remove_dead_temporaries(parent);
+  if (file_type_at(out, ExitCode::kOutput) != fs::file_type::not_found)
+    return write_gallery(run, options);
   const TemporaryDirectory unfinished(parent);
   options.is_part = true;
   options.site = unfinished.path() / "site";
