@@ -71,7 +71,8 @@ Publisher::Publisher(fs::path site, std::set<std::string> own)
     for (const std::string& name : list.files)
       if (is_path_of_plain_names(name)) earlier_.insert(name);
     earlier_keys_.insert(list.made_of.begin(), list.made_of.end());
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput || error.is_fault()) throw;
     earlier_.clear();  // nothing is removed, which does no harm
   }
 }
