@@ -81,9 +81,11 @@ void JobBoard::settle_locked(JobIndex job, JobState state) {
   show_progress();
   for (const JobIndex next : graph_.dependents(job)) {
     if (states_[next] != JobState::kWaiting) continue;
+    // A picture that was lost is made again, so nothing is made without it.
+    const bool can_be_lacking = state == JobState::kFailed && graph_.may_lack(next, job);
     if (state == JobState::kAbsent)
       settle_locked(next, state);
-    else if (state != JobState::kDone && !graph_.may_lack(next, job))
+    else if (state != JobState::kDone && !can_be_lacking)
       settle_locked(next, JobState::kBlocked);
     else if (inputs_are_settled(next))
       make_ready(next);

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "farm/job_board.hpp"
 #include "farm_fixture.hpp"
 
 namespace lobelia {
@@ -96,6 +97,20 @@ TEST_F(JobGraphTest, WithoutItsReferenceACellHasNoComparison) {
   graph.leave_out(0, 0);
   EXPECT_TRUE(graph[graph.reference(0, 1)].exists);
   EXPECT_FALSE(graph[graph.compare(0, 1)].exists);
+}
+
+TEST_F(JobGraphTest, NoJobWaitsForAPictureThatWasLost) {
+  const Planned planned(grid("16", "<engine name=\"analytic\"/>"));
+  const JobGraph& graph = planned.graph;
+  std::vector<JobState> states(graph.size(), JobState::kWaiting);
+  const JobRunOptions options;
+  JobBoard board(graph, options, states, [](std::size_t) {});
+  board.plan({0});
+  board.settle(graph.render(0), JobState::kDone);
+  ASSERT_TRUE(graph.may_lack(graph.profile(0), graph.reference(0, 0)));
+  board.settle(graph.reference(0, 0), JobState::kBlocked);
+  EXPECT_EQ(board.state(graph.compare(0, 0)), JobState::kBlocked);
+  EXPECT_EQ(board.state(graph.profile(0)), JobState::kBlocked) << "the farm would never end";
 }
 
 TEST_F(JobGraphTest, AnyPartOfTheOrderIsSpreadOverTheWholeGrid) {
