@@ -127,11 +127,12 @@ fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_
 	$(build) --target test_renderer_random_scenes test_formulas
 	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
 
-chaos: ## farms to which faults happen at random, for MINUTES (10); SEED=N begins with that round
-	$(setup) build
+chaos: ## faults at random for MINUTES (10): first farms are disturbed, then system calls of six commands fail; SEED=N repeats them
+	$(setup) build chaos
 	$(configure)
-	$(build) --target test_farm_chaos
-	LOBELIA_RANDOM_SEED="$(SEED)" LOBELIA_RANDOM_SECONDS=$$((60 * $(MINUTES))) "build/$(PRESET)/bin/test_farm_chaos"
+	$(build) --target test_farm_chaos lobelia lobelia_image_io
+	LOBELIA_RANDOM_SEED="$(SEED)" LOBELIA_RANDOM_SECONDS=$$((30 * $(MINUTES))) "build/$(PRESET)/bin/test_farm_chaos"
+	tests/faults/inject --seed "$(SEED)" --minutes $$(($(MINUTES) / 2)).$$(($(MINUTES) % 2 * 5)) "build/$(PRESET)/bin/lobelia"
 
 lint: ## checks the layout of the source, and for common mistakes with TIDY=yes (minutes)
 	$(setup) build lint

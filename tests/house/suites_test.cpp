@@ -99,6 +99,7 @@ TEST(Suites, every_group_of_long_tests_is_called_for_by_some_change) {
 TEST(Suites, a_change_calls_for_what_it_can_break) {
   EXPECT_EQ(groups_of("docs/faq.md"), "cli docs python\n");
   EXPECT_EQ(groups_of("docs/mutants.md"), "docs\n");
+  EXPECT_EQ(groups_of("tests/faults/inject"), "all_faults\n");
   EXPECT_EQ(groups_of("tests/farm/failures/failing_farm.hpp"), "all_farm\n");
   EXPECT_THAT(groups_of("gallery/pages.cpp"), HasSubstr("pages"));
   EXPECT_EQ(groups_of("tests/gallery/pages_test.cpp"), "all_gallery\n");
