@@ -99,10 +99,21 @@ Removal removal_of_temporary(const fs::path& path) {
                                       }});
 }
 
-/// 31 random bits, which tell this process from another one with its PID.
-long long number_of_process() {
-  static const long long number = std::random_device()() >> 1;
-  return number;
+/// When a process began, in ticks of a clock modulo 2^31, which tells it from others that have had its PID. 0 if /proc does
+/// not say.
+long long start_of_process(long long process) {
+  constexpr std::size_t kPlace = 20,
+                        kMostBytes = 4096;  // counted from the state, which follows the name
+  const Descriptor file(
+      ::open(fmt::format("/proc/{}/stat", process).c_str(), O_RDONLY | O_CLOEXEC));
+  std::string text(kMostBytes, '\0');
+  text.resize(file ? read_at(file.get(), text.data(), text.size()) : 0);
+  const std::size_t name_end = text.rfind(") ");
+  if (name_end == text.npos) return 0;
+  const std::vector<std::string> fields = split(text.substr(name_end + 2), " ");
+  long long start = 0;
+  const bool is_there = fields.size() >= kPlace && parse_integer(fields[kPlace - 1], start);
+  return is_there ? start & 0x7fffffff : 0;
 }
 
 struct PartName {
@@ -345,9 +356,9 @@ bool Removal::remove_from(const HeldDirectory& parent, const std::string& name,
 }
 
 fs::path part_path(const fs::path& path) {
-  static std::atomic<std::uint32_t> count = 0;
+  static std::atomic<std::uint32_t> count = std::random_device()();
   return path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(),
-                                          number_of_process() << 32 | count++);
+                                          start_of_process(::getpid()) << 32 | count++);
 }
 
 long long process_of_part(std::string_view name, std::string_view of) {
@@ -369,11 +380,11 @@ void remove_part(const fs::path& path) try {
 Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string& name) {
   const PartName part = part_name(name);
   if (part.process == 0) return Descriptor();
-  // In a container the next command often has the PID of the one that was killed.
-  const bool may_run = part.process == ::getpid()
-                           ? part.number >> 32 == number_of_process()
-                           : ::kill(pid_t(part.process), 0) == 0 || errno != ESRCH;
-  if (may_run) return Descriptor();
+  if (::kill(pid_t(part.process), 0) == 0 || errno != ESRCH) {
+    // In a container the next command often has the PID of the one that was killed.
+    const long long start = start_of_process(part.process);
+    if (start == 0 || start == part.number >> 32) return Descriptor();
+  }
   // No such process runs here. One on another machine would hold the lock.
   Descriptor file(
       ::openat(directory.fd(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));

@@ -111,8 +111,8 @@ class Removal {
   std::vector<Kept> kept_;
 };
 
-/// A new name beside `path` for an unfinished file: ".NAME.PID-N.part". N is random in part, because a process of
-/// another machine may have the same PID, and so may the next one in a container.
+/// A new name beside `path` for an unfinished file: ".NAME.PID-N.part". N says when the process began, because a later
+/// one may have its PID, and has random bits, because one of another machine may have it.
 std::filesystem::path part_path(const std::filesystem::path& path);
 bool is_part_name(std::string_view name);
 /// The PID in a name of part_path(), or of part_path("DIRECTORY/" + of); 0 for any other name.

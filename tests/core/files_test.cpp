@@ -226,14 +226,16 @@ TEST(AbandonedFiles, GoIfTheirProcessIsGoneAndStayIfItLives) {
   ::waitpid(child, &status, 0);
   const auto dead = directory.path() / fmt::format(".a.exr.{}-0.part", child);
   const auto earlier = directory.path() / fmt::format(".a.exr.{}-0.part", ::getpid());
+  const auto reused = directory.path() / ".a.exr.1-0.part";
   const auto alive = part_path(directory.path() / "a.exr");
   const auto foreign = directory.path() / ".notes.part";
-  for (const auto& path : {dead, earlier, alive, foreign}) write_file(path, "x");
+  for (const auto& path : {dead, earlier, reused, alive, foreign}) write_file(path, "x");
   const auto other = directory.path() / fmt::format(".b.a.exr.{}-0.part", child);
   write_file(other, "x");
   require_writable(directory.path() / "a.exr");
   EXPECT_FALSE(fs::exists(dead)) << "before the file is written again";
   EXPECT_FALSE(fs::exists(earlier)) << "of an earlier process with our PID, as in a container";
+  EXPECT_FALSE(fs::exists(reused)) << "of an earlier process with a PID that another one has now";
   EXPECT_TRUE(fs::exists(other)) << "of another file";
   remove_abandoned_parts(HeldDirectory(directory.path()));
   EXPECT_FALSE(fs::exists(other));
