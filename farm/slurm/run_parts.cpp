@@ -370,7 +370,7 @@ fs::path Submitter::write_script(const records::SlurmArray& array, const std::st
           : fmt::format("exec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID))", program,
                         directory, array.first_chunk);
   const fs::path path = run_.directory / "submit" / (title + ".sh");
-  write_file(path, fmt::format("#!/bin/sh\n{} --allow-commands\n", line));
+  write_file(path, fmt::format("#!/bin/sh\n{} --allow-commands\n", line), AtLink::kReplace);
   return path;
 }
 

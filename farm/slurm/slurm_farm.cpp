@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "core/host.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "records/record.hpp"
 
@@ -121,9 +122,13 @@ struct RecordedRun {
 std::vector<std::string> wishes_of_run(const records::FarmRun& record, const fs::path& directory) {
   std::vector<std::string> wishes;
   for (const auto& [engine, program] : record.programs) wishes.push_back(start_of(engine, program));
-  if (real_path(record.cache) != real_path(cache_directory({}, directory)))
+  const fs::path cache = real_path(record.cache), farm = real_path(directory);
+  // $LOBELIA_CACHE is the user's. A link in the farm may be somebody else's.
+  const fs::path usual = cache_directory({}, directory);
+  const bool is_users = usual != directory / "cache" && cache == real_path(usual);
+  if (!is_users && !is_below(cache, farm))
     wishes.push_back(fmt::format("write into the cache '{}'", printable(record.cache, 1000)));
-  if (!record.gallery.empty() && !is_below(real_path(record.gallery), real_path(directory)))
+  if (!record.gallery.empty() && !is_below(real_path(record.gallery), farm))
     wishes.push_back(fmt::format("write a gallery into '{}'", printable(record.gallery, 1000)));
   return wishes;
 }
@@ -147,13 +152,14 @@ RecordedRun read_run(const fs::path& directory, const Leave& leave) {
                     name, printable(record.directory, 1000)));
   RecordedRun run;
   run.grid_file = record.grid;
-  run.directory = record.directory;
+  run.directory = directory;
   run.options.leave = leave.said_by(file.real_path());
   if (const auto wishes = wishes_of_run(record, directory); !wishes.empty() && !run.options.leave)
     refuse_without_leave(wishes);
-  run.options.cache = record.cache;
+  // Without the links that were looked through: they may be replaced.
+  run.options.cache = real_path(record.cache);
   run.options.command = record.command;
-  run.options.gallery = record.gallery;
+  if (!record.gallery.empty()) run.options.gallery = real_path(record.gallery);
   for (const auto& [engine, program] : record.programs) run.options.programs[engine] = program;
   return run;
 }
@@ -190,7 +196,10 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   SlurmWork work;
   work.run_directory = slurm_run_directory(directory);
   work.program = program_file();
-  make_directories(work.run_directory / "chunks");
+  // A link would lead what is written, and started on nodes, out of the farm.
+  HeldDirectory held(fs::absolute(directory));
+  for (const char* name : {"runs", "slurm", "chunks"})
+    held = held.make_below(name, HeldDirectory::Border::kCross);
   Missing missing(session);
   // A client that finds living jobs keeps their failures; a new run tries everything again.
   if (slurm_status(work.run_directory, slurm.call_limit).living.empty()) missing.forget_failures();
@@ -199,7 +208,8 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   work.write_chunk = [&](std::size_t number, std::span<const std::size_t> places) {
     records::write_record(
         chunk_file(work.run_directory, number),
-        chunk_record(session.work(), session.cache(), options, missing.at(places)));
+        chunk_record(session.work(), session.cache(), options, missing.at(places)),
+        AtLink::kReplace);
   };
   work.give_up = [&](std::span<const std::size_t> places, const std::string& why) {
     missing.give_up(places, why);

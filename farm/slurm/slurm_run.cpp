@@ -8,6 +8,7 @@
 
 #include "core/byte_locks.hpp"
 #include "core/files.hpp"
+#include "core/removal.hpp"
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
@@ -73,8 +74,10 @@ class Client {
       throw Error(ExitCode::kUsage,
                   fmt::format("{}: sbatch takes no path with a backslash or a line end",
                               printable(run_.directory.string(), 200)));
-    make_directories(run_.directory / "log");  // without it an element fails and nobody says why
-    make_directories(run_.directory / "submit");
+    make_directories(run_.directory);
+    const HeldDirectory held(run_.directory);
+    // Without "log" an element fails and nobody says why.
+    for (const char* name : {"log", "submit"}) held.make_below(name, HeldDirectory::Border::kCross);
   }
 
   void rounds() {

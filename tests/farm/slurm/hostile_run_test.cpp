@@ -117,6 +117,24 @@ TEST_F(HostileRun, WritesOutsideOfItsFarmOnlyWithLeave) {
   EXPECT_TRUE(is_untouched());
 }
 
+TEST_F(HostileRun, WritesThroughNoLinkInItsFolder) {
+  grid("16");
+  make_directories(here("elsewhere"));
+  fs::create_directory_symlink(here("elsewhere"), slurm_run_directory(out()) / "chunks");
+  const auto [code, why] = attached(Leave::of_user(true));
+  EXPECT_EQ(code, ExitCode::kOutput);
+  EXPECT_THAT(why, HasSubstr("chunks: cannot write: a symbolic link"));
+  EXPECT_TRUE(fs::is_empty(here("elsewhere")));
+}
+
+TEST_F(HostileRun, NeedsLeaveForACacheBehindALinkInTheFarm) {
+  grid("16");
+  make_directories(here("elsewhere"));
+  fs::create_directory_symlink(here("elsewhere"), out() / "cache");
+  EXPECT_EQ(attached().first, ExitCode::kUsage);
+  EXPECT_TRUE(fs::is_empty(here("elsewhere")));
+}
+
 TEST_F(HostileRun, ARunOfAnotherFarmIsRefused) {
   grid("16");
   make_directories(here("other"));
