@@ -71,10 +71,14 @@ std::vector<fs::path> replaced_above(const std::set<fs::path>& places) {
   std::set<fs::path> seen;
   for (const fs::path& place : places) {
     std::error_code unknown;
-    fs::path folder = fs::canonical(place.empty() ? fs::path(".") : place, unknown);
-    for (; !unknown && seen.insert(folder).second; folder = folder.parent_path())
-      if (has_replacements(folder)) found.push_back(folder);
+    const fs::path folder = fs::canonical(place.empty() ? fs::path(".") : place, unknown);
+    if (!unknown && seen.insert(folder).second && has_replacements(folder)) found.push_back(folder);
   }
+  // Above them anybody may have made a directory that names files of ours.
+  for (const fs::path& place : std::set<fs::path>(seen))
+    for (fs::path folder = place.parent_path(); seen.insert(folder).second;
+         folder = folder.parent_path())
+      if (has_replacements(folder, true)) found.push_back(folder);
   return found;
 }
 

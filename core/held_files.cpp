@@ -38,7 +38,7 @@ class NewFile {
 
   /// If the group is not ours to give, its members may do what everybody may.
   void take_rights(const FileStatus& rights) {
-    mode_t mode = rights.st_mode & 07777u;
+    mode_t mode = rights.st_mode & 0777u;  // new bytes are not run as somebody else
     if (::fchown(file_.get(), uid_t(-1), rights.st_gid) != 0)
       mode = (mode & 0707u) | ((mode & 07u) << 3);
     if (::fchmod(file_.get(), mode) != 0) cannot_change(path_, errno);

@@ -99,17 +99,25 @@ Removal removal_of_temporary(const fs::path& path) {
                                       }});
 }
 
-/// When a process began, in ticks of a clock modulo 2^31, which tells it from others that have had its PID. 0 if /proc does
-/// not say.
-long long start_of_process(long long process) {
-  constexpr std::size_t kPlace = 20,
-                        kMostBytes = 4096;  // counted from the state, which follows the name
-  const Descriptor file(
-      ::open(fmt::format("/proc/{}/stat", process).c_str(), O_RDONLY | O_CLOEXEC));
-  std::string text(kMostBytes, '\0');
+/// "PID (NAME) STATE ...", empty if it cannot be read. `process` is a PID or "self".
+std::string stat_of_process(const std::string& process) {
+  const Descriptor file(::open(("/proc/" + process + "/stat").c_str(), O_RDONLY | O_CLOEXEC));
+  std::string text(4096, '\0');
   text.resize(file ? read_at(file.get(), text.data(), text.size()) : 0);
+  return text;
+}
+
+/// When a process began, in ticks of a clock modulo 2^31, which tells it from others that have had its PID. 0 if that cannot
+/// be told.
+long long start_of_process(long long process) {
+  const std::string own = stat_of_process("self");
+  const bool is_own = process == ::getpid();
+  // A /proc of another PID namespace has other processes under our numbers.
+  if (!is_own && !own.starts_with(fmt::format("{} ", ::getpid()))) return 0;
+  const std::string text = is_own ? own : stat_of_process(std::to_string(process));
   const std::size_t name_end = text.rfind(") ");
   if (name_end == text.npos) return 0;
+  constexpr std::size_t kPlace = 20;  // counted from the state
   const std::vector<std::string> fields = split(text.substr(name_end + 2), " ");
   long long start = 0;
   const bool is_there = fields.size() >= kPlace && parse_integer(fields[kPlace - 1], start);

@@ -51,11 +51,20 @@ HeldDirectory trusted_store(const fs::path& folder) {
   return store;
 }
 
+/// Lets those change what we made who may change the folder.
+void share_as(const HeldDirectory& root, const HeldDirectory& made) {
+  FileStatus folder{}, ours{};
+  if (::fstat(root.fd(), &folder) == 0 && ::fstat(made.fd(), &ours) == 0 &&
+      ours.st_uid == ::geteuid())
+    ::fchmod(made.fd(), folder.st_mode & 02777u);
+}
+
 HeldDirectory made_store(const HeldDirectory& root) {
   HeldDirectory store = root.make_below(kReplacedName);
   if (!is_trusted(root, store))
     throw Error(ExitCode::kOutput,
                 fmt::format("{}: cannot write: it belongs to another user", store.path().string()));
+  share_as(root, store);
   if (store.read(kMark, sizeof kMarkText) != kMarkText) write_in(store, kMark, kMarkText);
   return store;
 }
@@ -64,7 +73,6 @@ bool has_our_mark(const HeldDirectory& root) {
   return root.below(kReplacedName).read(kMark, sizeof kMarkText).has_value();
 }
 
-/// Waits while another process has it.
 std::optional<ByteLocks::Claim> claimed(const ByteLocks& locks) {
   constexpr std::chrono::milliseconds kBetweenTries{20};
   for (;;) {
@@ -72,6 +80,11 @@ std::optional<ByteLocks::Claim> claimed(const ByteLocks& locks) {
     throw_if_interrupted();
     std::this_thread::sleep_for(kBetweenTries);
   }
+}
+
+std::uint64_t inode_of(const HeldDirectory& held) {
+  FileStatus status{};
+  return ::fstat(held.fd(), &status) == 0 ? status.st_ino : 0;
 }
 
 Journal read_journal(const HeldDirectory& store, const char* stage) {
@@ -85,6 +98,10 @@ Journal read_journal(const HeldDirectory& store, const char* stage) {
                             "be, remove {}",
                             (held.path() / kJournalFile).string(),
                             store.path().parent_path().string(), store.path().string()));
+  if (journal->directory != inode_of(held))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: is a copy from another place and is not acted upon; remove {}",
+                            (held.path() / kJournalFile).string(), store.path().string()));
   return std::move(*journal);
 }
 
@@ -112,6 +129,7 @@ class Gathering {
         problems.push_back(std::move(problem));
     }
     if (!problems.empty()) refuse(std::move(problems), "nothing was replaced; compare again");
+    journal_.directory = inode_of(next_);
     write_in(next_, kJournalFile, journal_.text());
     flush_names(next_);
   }
@@ -192,6 +210,7 @@ class ReplacedFolder {
   void replace(std::span<const Replacement> files) {
     finish();
     const HeldDirectory next = store_.make_below(kNext);
+    share_as(root_, next);
     Gathering gathering(root_, next);
     std::optional<EndDelay> delay;
     try {
@@ -439,7 +458,12 @@ void replace_files(const fs::path& folder, std::span<const Replacement> files) {
   ReplacedFolder(folder).replace(files);
 }
 
-bool has_replacements(const fs::path& folder) { return bool(trusted_store(folder)); }
+bool has_replacements(const fs::path& folder, bool only_own) {
+  const HeldDirectory store = trusted_store(folder);
+  FileStatus status{};
+  return store &&
+         (!only_own || (::fstat(store.fd(), &status) == 0 && status.st_uid == ::geteuid()));
+}
 
 ReplacementOutcome finish_replacement(const fs::path& folder) {
   const HeldDirectory store = trusted_store(folder);

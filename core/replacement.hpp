@@ -51,8 +51,8 @@ struct Replacement {
 void replace_files(const std::filesystem::path& folder, std::span<const Replacement> files);
 
 /// Whether files of this very folder were replaced. In a folder where everybody may make entries, such as /tmp, a directory
-/// of somebody else's does not count.
-bool has_replacements(const std::filesystem::path& folder);
+/// of somebody else's does not count; with `only_own` nowhere.
+bool has_replacements(const std::filesystem::path& folder, bool only_own = false);
 
 /// The outcome of a replacement.
 struct ReplacementOutcome {

@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "core/replacement.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
 /// An entry is words and, at its end, a name. A NUL ends it, which no name has.
-constexpr std::string_view kMadeWord = "made", kNoFileWord = "-";
+constexpr std::string_view kMadeWord = "made", kInWord = "in", kNoFileWord = "-";
 /// The last entry, which says that none is lost.
 constexpr std::string_view kEndWord = "end";
 
@@ -31,6 +32,12 @@ bool read_entry(std::string_view text, ReplacementJournal& journal) {
     journal.made.emplace_back(text);
     return is_inner_path(journal.made.back());
   }
+  if (first == kInWord) {
+    long long inode = 0;
+    const bool is_number = parse_integer(text, inode);
+    journal.directory = std::uint64_t(inode);
+    return is_number;
+  }
   ReplacementJournal::Entry entry;
   const std::optional<std::string_view> before = take_word(text);
   if (!first || !before || !from_hex(*first, entry.bytes)) return false;
@@ -46,7 +53,8 @@ bool read_entry(std::string_view text, ReplacementJournal& journal) {
 std::string ReplacementJournal::text() const {
   std::string text;
   const auto add = [&](const std::string& entry) { (text += entry) += '\0'; };
-  for (const fs::path& directory : made) add(fmt::format("{} {}", kMadeWord, directory.native()));
+  add(fmt::format("{} {}", kInWord, directory));
+  for (const fs::path& one : made) add(fmt::format("{} {}", kMadeWord, one.native()));
   for (const Entry& entry : entries)
     add(fmt::format("{} {} {}", hex(entry.bytes),
                     entry.before ? hex(*entry.before) : std::string(kNoFileWord),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ struct ReplacementJournal {
   std::vector<Entry> entries;
   /// Directories that were not there, each before what is in it.
   std::vector<std::filesystem::path> made = {};
+  /// The inode of the directory that holds the journal. A copy, such as one that somebody sends, is in another directory.
+  std::uint64_t directory = 0;
 
   std::string text() const;
   /// Nothing if the text is damaged, or names anything outside of the folder.

@@ -394,8 +394,10 @@ TEST_F(ReplacementTest, NoLinkOnTheWayIsFollowed) {
                                  {"sub//../../outside/x.exr", ExitCode::kInput}}) {
     fs::create_directories(ours("now"));
     write_file(ours("now/new-0"), "evil");
+    struct stat status {};
+    ASSERT_EQ(::stat(ours("now").c_str(), &status), 0);
     write_file(ours("now/journal"),
-               ReplacementJournal{{{to, sha256("evil"), std::nullopt}}, {}}.text());
+               ReplacementJournal{{{to, sha256("evil"), std::nullopt}}, {}, status.st_ino}.text());
     EXPECT_EQ(error_of([&] { finish_replacement(refs()); }).code(), code) << to;
     EXPECT_EQ(read_file(path("outside/x.exr"), 100), "precious");
   }
@@ -412,6 +414,22 @@ TEST_F(ReplacementTest, ADamagedJournalIsNamed) {
   EXPECT_EQ(error.code(), ExitCode::kInput);
   EXPECT_THAT(error.what(), HasSubstr("last/journal: is missing or damaged"));
   EXPECT_EQ(texts(), kNew);
+}
+
+TEST_F(ReplacementTest, ACopyOfAJournalIsNotActedUpon) {
+  replace(three());
+  fs::copy(ours("last"), ours("now"), fs::copy_options::recursive);
+  const Error error = error_of([&] { finish_replacement(refs()); });
+  EXPECT_EQ(error.code(), ExitCode::kInput) << "somebody may have sent it";
+  EXPECT_THAT(error.what(), HasSubstr("now/journal: is a copy from another place"));
+  EXPECT_EQ(texts(), kNew);
+}
+
+TEST_F(ReplacementTest, WhoMayChangeTheFolderMayChangeItsJournal) {
+  fs::permissions(refs(), fs::perms(02775));
+  replace(three());
+  for (const char* made : {"", "last"})
+    EXPECT_EQ(fs::status(ours(made)).permissions(), fs::perms(02775)) << made;
 }
 
 TEST_F(ReplacementTest, ALinkIsReplacedItselfAndPutBackAsOne) {
