@@ -58,9 +58,17 @@ bool is_tga_header(std::string_view head) {
          (byte(17) & 0xc0) == 0;
 }
 
-[[noreturn]] void cannot_open(const std::filesystem::path& path, int error) {
+constexpr std::string_view kBecameShorter = "it became shorter while it was read";
+
+Error not_readable(const std::filesystem::path& path, std::string_view why) {
+  return Error(ExitCode::kInput,
+               fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
+}
+
+[[noreturn]] void system_said(const std::filesystem::path& path, int error) {
   if (!lacking(error).empty()) throw failure_of(path.string(), error, ExitCode::kInput);
-  unreadable_picture(path, error == ENOENT ? "no such file" : std::strerror(error));
+  throw not_readable(path, error == ENOENT ? "no such file" : std::strerror(error))
+      .set_fault(!tells_of_file(error));
 }
 
 }  // namespace
@@ -197,15 +205,14 @@ PngColour png_colour(std::string_view file) {
 }
 
 void unreadable_picture(const std::filesystem::path& path, std::string_view why) {
-  throw Error(ExitCode::kInput,
-              fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
+  throw not_readable(path, why);
 }
 
 PictureFile::PictureFile(const std::filesystem::path& path)
     : PictureFile(path, [&] {
         // O_NONBLOCK: opening a pipe would wait for its writer.
         Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-        if (!file) cannot_open(path, errno);
+        if (!file) system_said(path, errno);
         return file;
       }()) {}
 
@@ -214,10 +221,9 @@ PictureFile::PictureFile(InputFile file) : PictureFile(file.path(), file.release
 PictureFile::PictureFile(const std::filesystem::path& path, Descriptor file)
     : path_(path), file_(std::move(file)) {
   struct stat status {};
+  if (::fstat(descriptor(), &status) != 0) system_said(path, errno);
   std::string problem;
-  if (::fstat(descriptor(), &status) != 0)
-    problem = std::strerror(errno);
-  else if (!S_ISREG(status.st_mode))
+  if (!S_ISREG(status.st_mode))
     problem = "not a regular file";
   else if (status.st_size == 0)
     problem = "the file is empty";
@@ -230,9 +236,10 @@ PictureFile::PictureFile(const std::filesystem::path& path, Descriptor file)
 
 std::string PictureFile::read(std::uint64_t offset, std::size_t size) const {
   std::string bytes(size, '\0');
-  if (read_in_pieces(descriptor(), bytes.data(), size, offset) < size)
-    unreadable_picture(path_,
-                       errno != 0 ? std::strerror(errno) : "it became shorter while it was read");
+  if (read_in_pieces(descriptor(), bytes.data(), size, offset) < size) {
+    if (errno != 0) system_said(path_, errno);
+    unreadable_picture(path_, kBecameShorter);
+  }
   return bytes;
 }
 
@@ -258,14 +265,15 @@ Descriptor PictureFile::copy_in_memory(std::uint64_t max_bytes) const {
         path_, fmt::format("the file has {} bytes; at most {} of such a format are read", size_,
                            max_bytes));
   Descriptor copy(::memfd_create("picture", MFD_CLOEXEC));
-  if (copy.get() < 0) cannot_open(path_, errno);
+  if (copy.get() < 0) system_said(path_, errno);
   off_t offset = 0;
   while (std::uint64_t(offset) < size_) {
     const ssize_t n = ::sendfile(copy.get(), descriptor(), &offset, std::size_t{1} << 24);
     const int error = errno;
     if (n > 0 && !interrupted()) continue;
     throw_if_interrupted();
-    unreadable_picture(path_, n < 0 ? std::strerror(error) : "it became shorter while it was read");
+    if (n < 0) system_said(path_, error);
+    unreadable_picture(path_, kBecameShorter);
   }
   return copy;
 }

@@ -32,8 +32,8 @@ void publish_small_pictures(const std::filesystem::path& run, CheckedCell& cell,
 /// A picture for a display, decoded once.
 class ShownPicture {
  public:
-  /// Throws Error(kInput) if it cannot be read.
-  static ShownPicture read(const std::filesystem::path& file);
+  /// Empty where the file is no picture. Throws Error(kInput) where it could not be read this time.
+  static std::optional<ShownPicture> read(const std::filesystem::path& file);
   const Image& light() const { return light_; }
   /// With a longer side of at most `side`.
   DisplayImage within(int side) const;

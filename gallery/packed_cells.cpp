@@ -31,12 +31,16 @@ std::vector<std::size_t> sorted(const ShownFarm& farm, std::vector<std::string>&
   return order;
 }
 
-/// Adds what is left of the picture, and says so in it. Returns the whole, if there is one.
+/// Adds what is left of the picture, and says so in it. Returns the whole, if there is one that can be decoded.
 std::optional<ShownPicture> shrink(const fs::path& folder, Picture& picture,
                                    std::vector<NamedPicture>& pictures) {
   if (!picture.shown()) return {};
-  ShownPicture whole = ShownPicture::read(folder / picture.file);
-  DisplayImage image = whole.within(kPictureSide);
+  std::optional<ShownPicture> whole = ShownPicture::read(folder / picture.file);
+  if (!whole) {
+    picture.why_not = "The picture " + picture.file + " cannot be read.";
+    return {};
+  }
+  DisplayImage image = whole->within(kPictureSide);
   picture.small = {picture.file, image.width, image.height};
   picture.is_published = false;
   pictures.push_back({link_to({picture.file}), std::move(image)});

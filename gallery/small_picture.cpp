@@ -5,6 +5,7 @@
 #include "gallery/derived_pictures.hpp"
 
 #include "core/colour.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/png_module.hpp"
@@ -52,8 +53,21 @@ Image reduced(const Image& image, int width, int height) {
 
 namespace {
 
+/// Nothing where the file is no picture: it stays so. Throws where the system failed: what is made without the picture would
+/// stay as well.
+std::optional<Image> decoded(const fs::path& file) {
+  try {
+    return read_image(file);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput || error.is_fault()) throw;
+    return {};
+  }
+}
+
+/// Empty where the file is no picture.
 std::string small_png(const fs::path& picture, int width, int height) {
-  return png_bytes(to_display(reduced(read_image(picture), width, height), 0));
+  const std::optional<Image> image = decoded(picture);
+  return image ? png_bytes(to_display(reduced(*image, width, height), 0)) : "";
 }
 
 std::string small_name(const std::string& file) {
@@ -74,11 +88,12 @@ Image light_of(const DisplayImage& shown) {
 
 }  // namespace
 
-ShownPicture ShownPicture::read(const fs::path& file) {
+std::optional<ShownPicture> ShownPicture::read(const fs::path& file) {
   std::optional<DisplayImage> plain =
       png_table().read_codes(read_file(file, kMostShownBytes), kMostPlainSide);
-  Image light = plain ? light_of(*plain) : read_image(file);
-  return ShownPicture(std::move(plain), std::move(light));
+  std::optional<Image> light = plain ? light_of(*plain) : decoded(file);
+  if (!light) return {};
+  return ShownPicture(std::move(plain), std::move(*light));
 }
 
 DisplayImage ShownPicture::within(int side) const {

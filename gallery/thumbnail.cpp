@@ -112,7 +112,8 @@ void publish_thumbnail(const fs::path& run, const SurfaceOf& surface_of, Checked
       has_scene ? hex(sha256_of_file(directory / "scene.xml")) : std::string("no scene"));
   if (publisher.derive("cells/" + cell.id + "/thumbnail.png", key, [&] {
         const auto shown = ShownPicture::read(directory / ours->png.file);
-        return png_bytes(small_thumbnail(shown.light(), run, surface_of, cell, kThumbnailLonger));
+        if (!shown) return std::string();
+        return png_bytes(small_thumbnail(shown->light(), run, surface_of, cell, kThumbnailLonger));
       })) {
     const auto [width, height] = size_within(ours->png.width, ours->png.height, kThumbnailLonger);
     cell.thumbnail = {"thumbnail.png", width, height};

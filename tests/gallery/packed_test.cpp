@@ -69,6 +69,14 @@ TEST_F(PackedGallery, has_no_link_that_leads_nowhere) {
   EXPECT_THAT(site.active_content(), IsEmpty());
 }
 
+TEST_F(PackedGallery, is_made_without_a_picture_that_cannot_be_decoded) {
+  std::string damaged = tiny_png();
+  damaged.replace(damaged.size() - 30, 8, 8, '\0');
+  write_file(farm_.cell_directory(FakeFarm::kPass) / "lobelia.png", damaged);
+  farm_.seal(FakeFarm::kPass);
+  for (const bool packed : {true, false}) EXPECT_NO_THROW(publish(packed)) << packed;
+}
+
 TEST(CellChunk, takes_markup_apart_without_a_loss) {
   EXPECT_THAT(pieces_of("<p class=\"a\">one &lt; two</p>rest"),
               ElementsAre("<p class=\"a\">", "one &lt; two", "</p>", "rest"));
