@@ -23,13 +23,16 @@ namespace {
 
 constexpr MetricOutput kOutputs[] = {
     {"energy.highlight", "Energy of the highlight", Unit::kShare, Better::kNearZero, false,
-     "sum over the highlight, a / b - 1", "How much more light the highlight has in all."},
+     "sum of what exceeds 5 % of the peak, a / b - 1",
+     "How much more light the highlight has in all."},
     {"brightness.highlight", "Brightness of the highlight", Unit::kShare, Better::kNearZero, false,
-     "sum of squares over sum, a / b - 1", "How much brighter the highlight is."},
+     "the same: sum of squares over sum, a / b - 1", "How much brighter the highlight is."},
     {"width.highlight", "Width of the highlight", Unit::kShare, Better::kNearZero, false,
-     "root of squared sum over sum of squares, a / b - 1", "How much wider the highlight is."},
+     "the same: root of squared sum over sum of squares, a / b - 1",
+     "How much wider the highlight is."},
     {"shift.highlight", "Shift of the highlight", Unit::kPlain, Better::kLower, true,
-     "distance of the centroids in pixels", "How far away the highlight is, in pixels."},
+     "distance of the centroids of the same, in pixels",
+     "How far away the highlight is, in pixels."},
     {"shift.highlight.x", "", Unit::kPlain, Better::kNeither, false, "to the right, in pixels"},
     {"shift.highlight.y", "", Unit::kPlain, Better::kNeither, false, "down, in pixels"}};
 
