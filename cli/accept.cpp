@@ -8,9 +8,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/compare_arguments.hpp"
+#include "cli/compare_options.hpp"
 #include "cli/options.hpp"
 #include "cli/replaced_references.hpp"
+#include "core/files.hpp"
 #include "core/replacement.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
@@ -36,9 +37,10 @@ std::set<fs::path> places_to_undo(const std::string& given) {
     choice.given = {given};
     return places_of_references(choice);
   }
-  CompareArguments project;
-  apply_project(project);
-  choice = project.job.pictures;
+  CompareChoice chosen;
+  chosen.project = usual_project();
+  if (CompareJob unused; !chosen.project.empty()) apply_project(chosen, unused);
+  choice = pictures_of(chosen);
   if (!choice.csv.empty()) return places_of_references(pair_pictures(choice));
   std::set<fs::path> places = places_of_references(choice);
   if (places.empty()) places.insert(".");

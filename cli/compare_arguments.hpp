@@ -2,49 +2,29 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/common_options.hpp"
 #include "cli/compare_html.hpp"
 #include "cli/compare_pictures.hpp"
 #include "cli/output_files.hpp"
-#include "core/colour.hpp"
 #include "core/files.hpp"
 
 namespace lobelia::cli {
 
 struct CompareArguments {
-  CompareJob job;
-  ViewingFlags viewing;
-  std::string project;
-  std::string json, csv, junit, markdown, tolerance, layer;
+  CompareChoice choice;
+  CompareJob job;  ///< made of it
+  DifferencePicture difference;
+  std::string json, csv, junit, markdown;
   HtmlReport html;
   std::string a, b;
   std::vector<std::string> further;
-  std::string junit_undecided = "failure", metrics, format = "text", colour = "auto";
-  bool sensitivity = false, no_default_limits = false, accept = false;
+  std::string junit_undecided = "failure", format = "text", colour = "auto";
+  bool sensitivity = false, accept = false;
   PrintChoice print;
-  std::vector<std::string> fail, warn;
-  DisplayViewChoice display;
-  int threads = 0;
   WorkLimits limits;
 };
-
-/// Throws Error(kUsage) unless `text` is METRIC=LIMIT. `where` names it: "--fail".
-MetricLimit parse_limit(std::string_view where, const std::string& text);
-/// Throws Error(kUsage) unless `text` is RELATIVE,OF_PEAK,OUTLIERS.
-Tolerance parse_tolerance(std::string_view where, const std::string& text);
-
-/// Adds what the project says, as far as the command line does not: the project named, or without A the lobelia.toml of
-/// this directory. Paths in it are from its own directory. Throws Error(kInput) for a project that cannot be read, and
-/// Error(kUsage) for what its values do not allow.
-void apply_project(CompareArguments& options);
-
-/// Throws unless the second reference and the pictures of noise can be told which pair they are of.
-void check_companions(const CompareJob& job, const Pairing& pairing);
-/// Throws Error(kInput) unless there is a pair.
-void require_pairs(const SetReport& report);
 
 /// Whether a report goes to stdout in place of the table. Throws Error(kUsage) for two.
 bool prints_report(const CompareArguments& options);

@@ -138,9 +138,10 @@ class ReportWriter {
 
   gallery::ShownFarm farm(const HtmlReport& html, const std::vector<gallery::MetricInfo>& metrics) {
     records::Farm farm;
-    farm.title = !html.title.empty() ? html.title
-                                     : fmt::format("{} and {}", judged_sets(),
-                                                   printable_path(pairing_.sets[kReferenceSet]));
+    farm.title = !html.title.empty()   ? html.title
+                 : !job_.title.empty() ? job_.title
+                                       : fmt::format("{} and {}", judged_sets(),
+                                                     printable_path(pairing_.sets[kReferenceSet]));
     farm.command = shell_join(command_line());
     farm.axes = axes_of(pairing_, rows_);
     add_set(farm, kReferenceSet);
@@ -315,7 +316,7 @@ void write_html(const HtmlReport& html, const CompareJob& job, const Pairing& pa
   if (!job.comparison.crop)  // the mask of a cut has another size
     options.region = [&](const Image& a, const Image& b) {
       ComparisonOptions parts = job.comparison;
-      job.regions.apply(b.width(), b.height(), parts);
+      job.parts.apply(b.width(), b.height(), parts);
       return highlight_region(a, b, parts.mask);
     };
   ReportWriter writer(job, pairing, report);

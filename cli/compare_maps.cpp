@@ -1,3 +1,6 @@
+#include <map>
+#include <mutex>
+
 #include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
 #include "compare/highlight_region.hpp"
@@ -6,6 +9,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
+#include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 
 namespace lobelia::cli {
@@ -178,6 +182,67 @@ void DifferencePicture::write_histogram(const Image& a, const Image& b,
       "largest {:.6f}\n",
       printable_path(histogram.string()), histogram_of, counted.mean, counted.median,
       counted.first_quartile, counted.third_quartile, counted.least, counted.largest);
+}
+
+SetReport compare_and_show(const CompareJob& job, const DifferencePicture& wanted,
+                           const Pairing& pairing, const std::function<void(std::size_t)>& done) {
+  if (wanted.path.empty() && wanted.histogram.empty()) return compare_pairs(job, pairing, done);
+  const bool one = is_one_pair(pairing);
+  const auto write = [&](const PairReport& pair, const Image& a, const Image& b,
+                         std::optional<double> of_set) {
+    const fs::path file = one ? wanted.path : difference_file(wanted.path, pair.name);
+    if (!one) make_directories(file.parent_path());
+    wanted.write(file, a, b, *pair.comparison, of_set);
+  };
+  const bool at_once = one || wanted.has_own_scale();
+  // One scale for the set. If that is the largest difference, all pairs come first.
+  std::mutex mutex;
+  std::map<std::pair<std::size_t, std::size_t>, double> largest;  // by row and set
+  SetReport report = compare_pairs(job, pairing, done,
+                                   [&](const PairReport& pair, const Image& a, const Image& b) {
+                                     if (one) wanted.write_histogram(a, b, *pair.comparison);
+                                     if (!wanted.is_wanted(pair.verdict())) return;
+                                     if (at_once) return write(pair, a, b, std::nullopt);
+                                     const double own = wanted.largest(a, b, *pair.comparison);
+                                     const std::lock_guard lock(mutex);
+                                     largest[{pair.row, pair.set}] = own;
+                                   });
+  if (largest.empty()) return report;
+  double of_set = -1;
+  for (const auto& [place, own] : largest) of_set = std::max(of_set, own);
+  for_each_pair(report.pairs.size(), [&](std::size_t i) {
+    const PairReport& pair = report.pairs[i];
+    const auto own_largest = largest.find({pair.row, pair.set});
+    if (own_largest == largest.end() || !(own_largest->second >= 0)) return;
+    const CompareJob own = job_of(job, pair.name);
+    ComparisonOptions unused = own.comparison;
+    PicturePair pictures = read_compared(pair, own, pairing, unused);
+    if (allows_equal_nonfinite(own.comparison, pictures.b.source))
+      clear_equal_nonfinite(pictures.a.image, pictures.b.image);
+    write(pair, pictures.a.image, pictures.b.image, of_set);
+  });
+  return report;
+}
+
+std::string plain_id(const std::string& name) {
+  constexpr std::size_t kLongest = 80;
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  std::string id = name.substr(0, kLongest);
+  for (char& c : id)
+    if (kPlain.find(c) == std::string_view::npos) c = '-';
+  if (id == name && is_plain_name(id)) return id;
+  constexpr std::size_t kDigits = 10;
+  return "p" + id + "-" + hex(sha256(name)).substr(0, kDigits);
+}
+
+fs::path difference_file(const fs::path& path, const std::string& name) {
+  constexpr std::size_t kLongest = 255;
+  const fs::path own = name + ".png";
+  // A table may name a pair anything.
+  const bool is_inside = own.is_relative() && own == own.lexically_normal() &&
+                         *own.begin() != ".." && own.filename().string().size() <= kLongest;
+  return path / (is_inside ? own : fs::path(plain_id(name) + ".png"));
 }
 
 }  // namespace lobelia::cli

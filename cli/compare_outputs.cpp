@@ -18,10 +18,9 @@ namespace fs = std::filesystem;
 /// Names all files that are read.
 void add_inputs(const CompareArguments& options, const Pairing& pairing, OutputFiles& outputs) {
   const CompareJob& job = options.job;
-  for (const std::string& file :
-       {job.scene, options.project, options.display.config, job.pictures.csv})
+  for (const std::string& file : {job.scene, job.project, job.ocio, job.pictures.csv})
     outputs.reads(file);
-  for (const fs::path& file : job.regions.files()) outputs.reads(file);
+  for (const fs::path& file : job.parts.files()) outputs.reads(file);
   for (const PairRule& rule : job.rules)
     for (const auto* shapes : {&rule.mask, &rule.ignored})
       for (const fs::path& file : picture_files(*shapes)) outputs.reads(file);
@@ -55,15 +54,15 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
   std::vector<fs::path> reports, pictures;
   for (const std::string& file : {options.json, options.csv, options.junit, options.markdown})
     if (!file.empty() && file != kStdout) reports.emplace_back(file);
-  if (!job.difference.histogram.empty()) reports.push_back(job.difference.histogram);
+  if (!options.difference.histogram.empty()) reports.push_back(options.difference.histogram);
   const bool one = is_one_pair(pairing);
-  if (!job.difference.path.empty()) {
+  if (!options.difference.path.empty()) {
     if (one) {
-      reports.push_back(job.difference.path);
+      reports.push_back(options.difference.path);
     } else {
-      require_outside("--diff-image", job.difference.path, job);
+      require_outside("--diff-image", options.difference.path, job);
       for (const PairReport& pair : pairs_of(pairing))
-        pictures.push_back(difference_file(job, pair.name));
+        pictures.push_back(difference_file(options.difference.path, pair.name));
     }
   }
   if (!options.html.path.empty()) {
@@ -76,7 +75,7 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
   for (const auto* files : {&reports, &pictures})
     for (const fs::path& file : *files) outputs.writes(file);
   for (const fs::path& file : reports) require_writable(file);
-  if (!one && !job.difference.path.empty()) make_directories(job.difference.path);
+  if (!one && !options.difference.path.empty()) make_directories(options.difference.path);
   std::set<fs::path> folders;
   for (const fs::path& file : pictures) folders.insert(file.parent_path());
   for (const fs::path& folder : folders) remove_abandoned_parts(HeldDirectory(folder));

@@ -38,13 +38,7 @@ CLI::Validator not_empty() {
 }
 
 CLI::Validator between(double min, double max) {
-  return {[=](std::string& text) {
-            double value = 0;
-            if (parse_number(text, value) && value >= min && value <= max) return std::string();
-            const bool is_number = parse_number(text, value) || text == "nan";
-            return fmt::format("'{}' is {}; allowed: {:g} to {:g}", printable(text),
-                               is_number ? "out of range" : "not a number", min, max);
-          },
+  return {[=](std::string& text) { return number_problem(text, min, max); },
           fmt::format("{:g} to {:g}", min, max)};
 }
 

@@ -264,6 +264,13 @@ Verdict verdict_of(std::span<const LimitResult> limits, bool noisy) {
 
 }  // namespace
 
+ComparisonOptions usual_options() {
+  ComparisonOptions options;
+  options.viewing.automatic = true;
+  options.highlight = true;
+  return options;
+}
+
 std::span<const MetricLimit> default_limits() {
   static const std::array<MetricLimit, 3> limits{{
       // Engines with the same formula differ by 5e-4 of the peak if one writes half floats, otherwise by 1e-5. A

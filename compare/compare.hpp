@@ -52,6 +52,10 @@ struct ComparisonOptions {
   std::optional<NoiseOptions> noise = {};  ///< if set, the verdict is same, different or undecided
 };
 
+/// What is compared where a user chooses nothing: the default limits, the highlight's too, at an exposure that suits the
+/// pair. Everything that judges pictures begins with it.
+ComparisonOptions usual_options();
+
 /// The default limits on the whole picture, and on its highlight.
 std::span<const MetricLimit> default_limits();
 std::span<const MetricLimit> highlight_limits();

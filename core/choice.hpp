@@ -1,4 +1,4 @@
-// A choice by name, with the sentence for a name that is unknown.
+// Choices by name and by number, with the sentences for those that are not allowed.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,6 +23,15 @@ auto chosen(const std::string& value, std::string_view option,
                 fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(value), allowed,
                             did_you_mean(value, names)));
   return *found;
+}
+
+/// "'x' is not a number; allowed: 2 to 5"; empty for a number in this range, which a NaN is not.
+inline std::string number_problem(const std::string& text, double least, double most) {
+  double value = 0;
+  if (parse_number(text, value) && value >= least && value <= most) return "";
+  const bool is_number = parse_number(text, value) || text == "nan";
+  return fmt::format("'{}' is {}; allowed: {:g} to {:g}", printable(text),
+                     is_number ? "out of range" : "not a number", least, most);
 }
 
 }  // namespace lobelia

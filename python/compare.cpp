@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/compare_arguments.hpp"
-#include "cli/options.hpp"
+#include "cli/compare_options.hpp"
 #include "cli/replaced_references.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/set/run.hpp"
 #include "core/image_io.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
 #include "python/module.hpp"
 #include "records/record.hpp"
-#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
-#include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::python {
 namespace {
@@ -33,74 +31,15 @@ struct ComparedSet {
   bool passed;
 };
 
-/// The options of compare(): those of the command line that write no files.
-struct CompareOptions : cli::CompareArguments {
-  void add_to(CLI::App& app) {
-    cli::OptionGroup group(app);
-    group.add("--pairs", job.pictures.csv, "", "");
-    group.add("--pattern", job.pictures.pattern, "", "");
-    group.add("--sets", job.pictures.sets, "", "");
-    group.add("--also-accept", job.pictures.also_accepted, "", "")->expected(1)->take_all();
-    group.add("--project", project, "", "");
-    group.add("--reference-floor", job.c, "", "");
-    group.add("--fail", fail, "", "")->expected(1)->take_all();
-    group.add("--warn", warn, "", "")->expected(1)->take_all();
-    group.add("--metrics", metrics, "", "");
-    group.add("--tolerance", tolerance, "", "");
-    group.add("--scene", job.scene, "", "");
-    group.add("--layer", layer, "", "");
-    group.add("--ocio", display.config, "", "");
-    group.add("--display", display.display, "", "");
-    group.add("--view", display.view, "", "");
-    group.add("--input-space", display.input_space, "", "");
-    group.add_flag("--all-layers", job.layers.all, "");
-    group.add_flag("--ignore-alpha", job.layers.ignore_alpha, "");
-    group.add_flag("--no-default-limits", no_default_limits, "");
-    group.add_flag("--allow-equal-nonfinite", job.comparison.allow_equal_nonfinite, "");
-    group.add_number("--threads", threads, 0, 1024, "");
-    job.regions.add_to(app);
-    job.noise.add_to(app);
-    viewing.add_to(app, job.comparison.viewing);
-  }
-
-  /// As `lobelia compare` does before it reads the pictures.
-  void apply() {
-    ComparisonOptions& options = job.comparison;
-    options.highlight = true;
-    options.default_limits = !no_default_limits;
-    for (const std::string& text : fail) options.limits.push_back(cli::parse_limit("limits", text));
-    for (const std::string& text : warn)
-      options.warnings.push_back(cli::parse_limit("warnings", text));
-    options.metrics = split(metrics, ",");
-    if (!tolerance.empty()) options.tolerance = cli::parse_tolerance("tolerance", tolerance);
-    if (!project.empty()) cli::apply_project(*this);
-    job.layers.layer = parse_layer_names(layer);
-    viewing.apply(options.viewing);
-    options.viewing.display = DisplayView::open(display);
-    if (!job.scene.empty()) {
-      const Scene shown = read_scene(job.scene);
-      options.surfaces = truth::surface_mask(shown);
-      options.mask_of = {job.scene};
-      if (options.tolerance) options.tolerance->edges = truth::edge_ring(shown);
-      for (cli::PairRule& rule : job.rules)
-        if (rule.tolerance) rule.tolerance->edges = truth::edge_ring(shown);
-    }
-    job.regions.read(options);
-    job.noise.apply(options);
-    check_options(options);
-  }
-
-  /// Whether they are for folders, or for pictures that a project or a table names.
-  bool is_for_set() const {
-    const PairingChoice& pictures = job.pictures;
-    const auto is_several = [](const std::string& path) {
-      std::error_code none;
-      return std::filesystem::is_directory(path, none) || is_sequence(path);
-    };
-    return !project.empty() || !pictures.csv.empty() || !pictures.pattern.empty() ||
-           !pictures.also_accepted.empty() || std::ranges::any_of(pictures.given, is_several);
-  }
-};
+/// Whether a choice is for folders, or for pictures that a project or a table names.
+bool is_for_set(const CompareChoice& choice) {
+  const auto is_several = [](const std::string& path) {
+    std::error_code none;
+    return std::filesystem::is_directory(path, none) || is_sequence(path);
+  };
+  return !choice.project.empty() || !choice.pairs.empty() || !choice.pattern.empty() ||
+         !choice.also_accept.empty() || std::ranges::any_of(choice.given, is_several);
+}
 
 /// A picture of the pair: a file to be read, or an array that is one already.
 struct Side {
@@ -115,32 +54,21 @@ struct Side {
     name = letter;
     picture = {{image_of(given, letter), {}, {}}};
   }
-  Picture read(const std::string& layer) {
-    return picture ? std::move(*picture) : read_picture(name, layer);
-  }
+  Picture read() { return picture ? std::move(*picture) : read_picture(name, ""); }
   bool is_file() const { return !picture; }
 };
 
-/// Exposures that suit the reference, or the reason why there are none.
-void choose_exposures(const Image& reference, HdrExposures& exposures) {
-  try {
-    exposures = automatic_exposures(reference, exposures);
-  } catch (const Error& error) {
-    exposures.problem = error.what();
-  }
-}
-
-ComparedSet compare_set(CompareOptions& options, const py::object& progress) {
+ComparedSet compare_set(const CompareChoice& choice, const py::object& progress) {
   ComparedSet compared;
   run(progress, [&](const ShowProgress& show) {
-    options.apply();
-    const Pairing pairing = cli::pair_finished(options.job.pictures);
-    cli::check_companions(options.job, pairing);
-    const double count = double(cli::pairs_of(pairing).size());
-    ThreadLimit(options.threads).run([&] {
-      const SetReport report = cli::compare_pairs(
-          options.job, pairing, [&](std::size_t done) { show(double(done) / count); });
-      cli::require_pairs(report);
+    const CompareJob job = make_job(choice, cli::scene_parts);
+    const Pairing pairing = cli::pair_finished(job.pictures);
+    check_companions(job, pairing);
+    const double count = double(pairs_of(pairing).size());
+    ThreadLimit(choice.threads).run([&] {
+      const SetReport report =
+          compare_pairs(job, pairing, [&](std::size_t done) { show(double(done) / count); });
+      require_pairs(report);
       compared = {records::record_text(set_record(report)), counts_text(report),
                   set_markdown(report), set_exit_code(report) == ExitCode::kSuccess};
     });
@@ -148,42 +76,27 @@ ComparedSet compare_set(CompareOptions& options, const py::object& progress) {
   return compared;
 }
 
-std::shared_ptr<Compared> compare_two(const py::object& a, const py::object& b,
-                                      CompareOptions& options) {
-  if (!options.job.c.empty())
+std::shared_ptr<Compared> compare_two_pictures(const py::object& a, const py::object& b,
+                                               const CompareChoice& choice) {
+  if (!choice.reference_floor.empty())
     throw Error(ExitCode::kUsage, "reference_floor is for folders and projects");
   auto compared = std::make_shared<Compared>();
   Side side_a(a, "a"), side_b(b, "b");
   const bool files = side_a.is_file() && side_b.is_file();
-  if (!files && (!options.layer.empty() || options.job.layers.all))
+  if (!files && (!choice.layer.empty() || choice.all_layers))
     throw Error(ExitCode::kUsage, "layer and all_layers are for two files; an array has no layers");
   run(py::none(), [&](const ShowProgress&) {
-    ThreadLimit(options.threads).run([&] {
-      options.apply();
-      ComparisonOptions& how = options.job.comparison;
+    ThreadLimit(choice.threads).run([&] {
+      const CompareJob job = make_job(choice, cli::scene_parts);
       PairReport& report = compared->report;
-      PicturePair& pair = compared->pictures;
       report.a = side_a.name;
       report.b = side_b.name;
-      Pairing pairing;
-      pairing.is_one_row = true;
-      if (files) {
-        pair = cli::read_compared(report, options.job, pairing, how);
-        report.sources = {pair.a.source, pair.b.source};
-      } else {
-        pair = {side_a.read(""), side_b.read("")};
-        options.job.noise.read("", report, pair, how);
-        if (!how.surfaces.empty() && how.surfaces.size() != pair.a.image.pixel_count())
-          throw Error(ExitCode::kInput,
-                      fmt::format("a has {} x {} pixels, the film of {} {}", pair.a.image.width(),
-                                  pair.a.image.height(), options.job.scene, how.surfaces.size()));
-        options.job.regions.apply(pair.b.image.width(), pair.b.image.height(), how);
-        take_part(pair, report.a, report.b, how);
-      }
-      if (how.viewing.hdr_exposures && how.viewing.hdr_exposures->automatic)
-        choose_exposures(pair.b.image, *how.viewing.hdr_exposures);
-      report.comparison = compare_pictures(pair, report.a, report.b, how);
-      if (files) report.layers = compare_others(report.a, report.b, pair, options.job.layers, how);
+      PicturePair& pair = compared->pictures;
+      if (files)
+        pair = read_two(job, report);
+      else
+        pair = {side_a.read(), side_b.read()};
+      report = compare_two(job, std::move(report), pair, files);
       compared->record = records::record_text(pair_record(report));
     });
   });
@@ -193,21 +106,20 @@ std::shared_ptr<Compared> compare_two(const py::object& a, const py::object& b,
 /// A Compared, or of folders a ComparedSet.
 py::object compare(const py::object& a, const py::object& b, const py::dict& given,
                    const py::object& progress) {
-  CompareOptions options;
-  parse_options(given, [&](CLI::App& app) { options.add_to(app); });
+  CompareChoice choice = read_choice(given_options(given));
   for (const py::object& picture : {a, b})
-    if (is_path(picture)) options.job.pictures.given.push_back(path_of(picture));
-  if (options.is_for_set()) {
+    if (is_path(picture)) choice.given.push_back(path_of(picture));
+  if (is_for_set(choice)) {
     for (const auto& [picture, letter] : {std::pair(a, "a"), std::pair(b, "b")})
       if (!picture.is_none() && !is_path(picture))
         throw Error(ExitCode::kUsage,
                     fmt::format("{} is no path; of a set, both are folders or files", letter));
-    return py::cast(compare_set(options, progress));
+    return py::cast(compare_set(choice, progress));
   }
   if (a.is_none() || b.is_none())
     throw Error(ExitCode::kUsage,
                 "a and b are required: two pictures or two folders; or pairs or project");
-  return py::cast(compare_two(a, b, options));
+  return py::cast(compare_two_pictures(a, b, choice));
 }
 
 const DifferenceMap& map_of(const std::string& id) {

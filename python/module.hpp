@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/set/choice.hpp"
 #include "core/image.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -29,6 +30,9 @@ void run(const py::object& progress, const std::function<void(const ShowProgress
 /// quick=True is --quick, mask=["a", "b"] is given twice, crop=(0, 0, 5, 5) is --crop=0,0,5,5, None is left out. Throws
 /// Error(kUsage).
 void parse_options(const py::dict& options, const std::function<void(CLI::App&)>& add);
+
+/// Python's options of a comparison, for read_choice(): as parse_options() takes them.
+std::vector<GivenOption> given_options(const py::dict& options);
 
 /// A path, a text that is one, or a text of XML, which begins with '<'. Reads pictures beside the file; of a text from
 /// the working directory. Throws as read_scene().

@@ -16,24 +16,24 @@ bool is_number(const py::handle& value) {
          !py::isinstance<py::array>(value);
 }
 
-void add_word(const std::string& name, const py::handle& value, std::vector<std::string>& words) {
-  if (value.is_none()) return;
-  if (py::isinstance<py::bool_>(value)) {
-    if (value.cast<bool>()) words.push_back(name);
-    return;
+/// The texts of one option: of a list one for each, but numbers become one text. True has none; None and
+/// False are not given.
+std::optional<std::vector<std::string>> texts_of(const py::handle& value) {
+  if (value.is_none()) return std::nullopt;
+  if (py::isinstance<py::bool_>(value))
+    return value.cast<bool>() ? std::optional(std::vector<std::string>()) : std::nullopt;
+  if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value))
+    return std::vector{path_of(py::reinterpret_borrow<py::object>(value))};
+  std::vector<std::string> texts;
+  bool are_numbers = true;
+  for (const py::handle one : value) {
+    if (one.is_none()) continue;
+    are_numbers = are_numbers && is_number(one);
+    texts.push_back(path_of(py::reinterpret_borrow<py::object>(one)));
   }
-  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-    std::vector<std::string> numbers;
-    for (const py::handle one : value)
-      if (is_number(one)) numbers.push_back(path_of(py::reinterpret_borrow<py::object>(one)));
-    if (!numbers.empty() && numbers.size() == py::len(value))
-      words.push_back(fmt::format("{}={}", name, fmt::join(numbers, ",")));
-    else
-      for (const py::handle one : value) add_word(name, one, words);
-    return;
-  }
-  // With '=', so that a negative number is no option.
-  words.push_back(name + "=" + path_of(py::reinterpret_borrow<py::object>(value)));
+  if (texts.empty()) return std::nullopt;
+  if (are_numbers) texts = {fmt::format("{}", fmt::join(texts, ","))};
+  return texts;
 }
 
 }  // namespace
@@ -68,7 +68,11 @@ void parse_options(const py::dict& options, const std::function<void(CLI::App&)>
                                                 printable(std::string(py::str(key))), join(names),
                                                 did_you_mean(std::string(py::str(key)), names)));
     }
-    add_word("--" + name, value, words);
+    const auto texts = texts_of(value);
+    if (texts && texts->empty()) words.push_back("--" + name);
+    // With '=', so that a negative number is no option.
+    if (texts)
+      for (const std::string& text : *texts) words.push_back(fmt::format("--{}={}", name, text));
   }
   std::ranges::reverse(words);  // as CLI11 takes them
   try {
@@ -76,6 +80,13 @@ void parse_options(const py::dict& options, const std::function<void(CLI::App&)>
   } catch (const CLI::ParseError& error) {
     throw Error(ExitCode::kUsage, error.what());
   }
+}
+
+std::vector<GivenOption> given_options(const py::dict& options) {
+  std::vector<GivenOption> given;
+  for (const auto& [key, value] : options)
+    given.push_back({std::string(py::str(key)), texts_of(value)});
+  return given;
 }
 
 Scene scene_of(const py::object& scene) {

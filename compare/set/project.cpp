@@ -1,15 +1,14 @@
-// Adds a project to the command line of `lobelia compare`.
+// Fills in what a choice leaves open from a project.
 #include <fmt/chrono.h>
 
-#include "cli/compare_arguments.hpp"
+#include "compare/set/job.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 
-namespace lobelia::cli {
+namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char kUsualFile[] = "lobelia.toml";
 
 /// A project's paths are from its own directory.
 class FromProject {
@@ -33,12 +32,6 @@ class FromProject {
   fs::path folder_;
 };
 
-std::vector<MetricLimit> limits_of(std::string_view where, const std::vector<std::string>& texts) {
-  std::vector<MetricLimit> limits;
-  for (const std::string& text : texts) limits.push_back(parse_limit(where, text));
-  return limits;
-}
-
 PairRule rule_of(const records::ProjectRule& rule, std::size_t number, const FromProject& from) {
   const auto where = [&](const char* key) { return fmt::format("rules[{}].{}", number, key); };
   const auto shapes = [&](const char* key, const std::vector<std::string>& texts) {
@@ -48,8 +41,8 @@ PairRule rule_of(const records::ProjectRule& rule, std::size_t number, const Fro
     return shapes;
   };
   PairRule made{rule.match,
-                limits_of(where("fail"), rule.fail),
-                limits_of(where("warn"), rule.warn),
+                parse_limits(where("fail"), rule.fail),
+                parse_limits(where("warn"), rule.warn),
                 {},
                 rule.default_limits,
                 shapes("mask", rule.mask),
@@ -59,42 +52,44 @@ PairRule rule_of(const records::ProjectRule& rule, std::size_t number, const Fro
 }
 
 void apply_pictures(const records::Project& project, const FromProject& from,
-                    PairingChoice& pictures) {
-  std::vector<std::string>& given = pictures.given;
-  if (pictures.csv.empty() && given.empty()) pictures.csv = from(project.pairs);
-  if (!pictures.csv.empty()) return;
+                    CompareChoice& choice) {
+  std::vector<std::string>& given = choice.given;
+  if (choice.pairs.empty() && given.empty()) choice.pairs = from(project.pairs);
+  if (!choice.pairs.empty()) return;
   const std::vector<std::string> judged = from(project.judged),
                                  references = from(project.references);
   const bool judges_given = !given.empty();
   if (!judges_given && !judged.empty()) given.push_back(judged.front());
   if (given.size() == 1 && !references.empty()) {
     given.push_back(references.front());
-    pictures.also_accepted.assign(references.begin() + 1, references.end());
+    choice.also_accept.assign(references.begin() + 1, references.end());
   }
   if (!judges_given && judged.size() > 1)
     given.insert(given.end(), judged.begin() + 1, judged.end());
-  if (pictures.pattern.empty()) {
-    pictures.pattern = project.pattern;
-    if (pictures.sets.empty()) pictures.sets = project.sets;
+  if (choice.pattern.empty()) {
+    choice.pattern = project.pattern;
+    if (choice.sets.empty()) choice.sets = project.sets;
   }
 }
 
-void apply(const records::Project& project, const fs::path& file, CompareArguments& options) {
-  const FromProject from(file);
-  CompareJob& job = options.job;
+void fill_in(const records::Project& project, CompareChoice& choice, CompareJob& job) {
+  const FromProject from(choice.project);
   ComparisonOptions& comparison = job.comparison;
-  apply_pictures(project, from, job.pictures);
-  if (options.html.title.empty()) options.html.title = project.title;
-  comparison.limits = with_limits(limits_of("fail", project.fail), comparison.limits);
-  comparison.warnings = with_limits(limits_of("warn", project.warn), comparison.warnings);
+  apply_pictures(project, from, choice);
+  job.title = project.title;
+  comparison.limits = with_limits(parse_limits("fail", project.fail), comparison.limits);
+  comparison.warnings = with_limits(parse_limits("warn", project.warn), comparison.warnings);
   if (!comparison.tolerance && !project.tolerance.empty())
     comparison.tolerance = parse_tolerance("tolerance", project.tolerance);
   comparison.default_limits = comparison.default_limits && project.default_limits.value_or(true);
-  job.regions.add(from.masks(project.mask), from.masks(project.ignore));
-  options.viewing.suggest_exposure(project.exposure);
-  if (options.layer.empty() && !job.layers.all) options.layer = project.layer;
-  if (job.scene.empty()) job.scene = from(project.scene);
-  job.layers.ignore_alpha = job.layers.ignore_alpha || project.ignore_alpha.value_or(false);
+  // A mask of the choice counts alone.
+  if (choice.mask.empty()) choice.mask = from.masks(project.mask);
+  const std::vector<std::string> ignored = from.masks(project.ignore);
+  choice.ignore.insert(choice.ignore.begin(), ignored.begin(), ignored.end());
+  if (choice.exposure.empty()) choice.exposure = project.exposure;
+  if (choice.layer.empty() && !choice.all_layers) choice.layer = project.layer;
+  if (choice.scene.empty()) choice.scene = from(project.scene);
+  choice.ignore_alpha = choice.ignore_alpha || project.ignore_alpha.value_or(false);
   for (std::size_t i = 0; i < project.rules.size(); ++i)
     job.rules.push_back(rule_of(project.rules[i], i, from));
   job.known = project.known;
@@ -103,22 +98,15 @@ void apply(const records::Project& project, const fs::path& file, CompareArgumen
 
 }  // namespace
 
-void apply_project(CompareArguments& options) {
-  if (options.project.empty()) {
-    const PairingChoice& pictures = options.job.pictures;
-    std::error_code unknown;
-    if (options.sensitivity || !pictures.given.empty() || !pictures.csv.empty() ||
-        !fs::exists(kUsualFile, unknown))
-      return;
-    options.project = kUsualFile;
-  }
-  const records::Project project = records::read_project(options.project);
+void apply_project(CompareChoice& choice, CompareJob& job) {
+  job.project = choice.project;
+  const records::Project project = records::read_project(choice.project);
   try {
-    apply(project, options.project, options);
+    fill_in(project, choice, job);
   } catch (const Error& error) {
     throw Error(ExitCode::kInput,
-                fmt::format("{}: {}", printable_path(options.project), error.what()));
+                fmt::format("{}: {}", printable_path(choice.project), error.what()));
   }
 }
 
-}  // namespace lobelia::cli
+}  // namespace lobelia

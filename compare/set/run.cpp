@@ -1,6 +1,6 @@
-#include "cli/compare_pictures.hpp"
+#include "compare/set/run.hpp"
 
-#include <fnmatch.h>
+#include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -11,19 +11,15 @@
 #include <utility>
 
 #include "compare/highlight_region.hpp"
-#include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
-#include "core/files.hpp"
 #include "core/for_each_whole.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "core/replacement.hpp"
-#include "core/sha256.hpp"
-#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
 
-namespace lobelia::cli {
+namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,16 +64,12 @@ ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, Image&
   return measure_reference_floor(c, cleared, options);
 }
 
-/// Calls difference(a, b, comparison) once the pair is compared.
-template <class Difference>
-PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
-                        bool choose_exposures, Difference difference) {
-  const auto started = std::chrono::steady_clock::now();
-  const SteadyFile file_a(pair.a), file_b(pair.b);
-  ComparisonOptions options = job.comparison;
-  PicturePair pictures = read_compared(pair, job, pairing, options);
-  Image &a = pictures.a.image, &b = pictures.b.image;
-  pair.sources = {pictures.a.source, pictures.b.source};
+/// Judges pictures that are ready, by the options of the pair.
+void judge_pair(PairReport& pair, PicturePair& pictures, const CompareJob& job,
+                ComparisonOptions& options, bool choose_exposures, bool are_files) {
+  const Image& a = pictures.a.image;
+  Image& b = pictures.b.image;
+  if (are_files) pair.sources = {pictures.a.source, pictures.b.source};
   if (choose_exposures)
     options.viewing.hdr_exposures = exposures_or_why_not(b, *options.viewing.hdr_exposures);
   std::optional<ReferenceFloor> floor;
@@ -87,9 +79,32 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
                      at_exposures_of(a, b, options));
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
   pair.comparison->reference_floor = std::move(floor);
-  pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
+  if (are_files) pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
+}
+
+/// Makes pictures that were read ready to be judged: with the noise, and the parts that are compared.
+void prepare(PicturePair& pictures, const PairReport& pair, const std::string& name_of_noise,
+             const CompareJob& job, ComparisonOptions& options) {
+  job.noise.read(name_of_noise, pair, pictures, options);
+  const Image &a = pictures.a.image, &b = pictures.b.image;
+  if (!options.surfaces.empty() && options.surfaces.size() != a.pixel_count())
+    throw Error(ExitCode::kInput,
+                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
+                            a.height(), job.scene, options.surfaces.size()));
+  job.parts.apply(b.width(), b.height(), options);
+  take_part(pictures, pair.a, pair.b, options);
+}
+
+/// Calls look(pair, a, b) once the pair is compared, if there is such a function.
+PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
+                        bool choose_exposures, const LookAtPair& look) {
+  const auto started = std::chrono::steady_clock::now();
+  const SteadyFile file_a(pair.a), file_b(pair.b);
+  ComparisonOptions options = job.comparison;
+  PicturePair pictures = read_compared(pair, job, pairing, options);
+  judge_pair(pair, pictures, job, options, choose_exposures, true);
   if (job.hash_files) pair.hashes = {file_a.digest(), file_b.digest()};
-  difference(a, b, *pair.comparison, pair.verdict());
+  if (look) look(pair, pictures.a.image, pictures.b.image);
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return pair;
 }
@@ -104,34 +119,10 @@ PairReport compare_with_each(const PairReport& pair, const CompareJob& job, cons
   for (const std::string& reference : pair.references) {
     PairReport one = pair;
     one.b = reference;
-    one = compare_pair(one, job, pairing, choose_exposures, [](auto&&...) {});
+    one = compare_pair(one, job, pairing, choose_exposures, nullptr);
     if (!best || fit(one) < fit(*best)) best = std::move(one);
   }
   return *best;
-}
-
-bool fits(const std::string& match, const std::string& name) {
-  return ::fnmatch(match.c_str(), name.c_str(), 0) == 0;
-}
-
-std::optional<records::Known> known_of(const CompareJob& job, const std::string& name) {
-  for (const records::KnownDifference& known : job.known)
-    if (fits(known.match, name))
-      return records::Known{known.reason, known.expires, known.expires < job.today};
-  return std::nullopt;
-}
-
-/// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not start another one,
-/// so no more pairs are in memory than there are threads. Those are one more than processors, unless fewer are asked for:
-/// a thread waits while another process decodes its picture, and would leave a processor idle each time they take turns.
-template <class Work>
-void for_each_pair(std::size_t count, Work work) {
-  const int threads = oneapi::tbb::this_task_arena::max_concurrency();
-  const bool one_more = count > 1 && threads == usual_threads() && threads > 1;
-  ThreadLimit(threads + one_more).run([&] {
-    for_each_whole(count,
-                   [&](std::size_t i) { oneapi::tbb::this_task_arena::isolate([&] { work(i); }); });
-  });
 }
 
 /// One range for the set, so that a number means the same in every pair.
@@ -177,27 +168,13 @@ std::string name_of(const Pairing& pairing, std::size_t row, std::size_t set) {
 
 }  // namespace
 
-std::vector<MetricLimit> with_limits(std::vector<MetricLimit> limits,
-                                     const std::vector<MetricLimit>& more) {
-  std::erase_if(limits, [&](const MetricLimit& limit) {
-    return std::ranges::count(more, limit.metric, &MetricLimit::metric) > 0;
+void for_each_pair(std::size_t count, const std::function<void(std::size_t)>& work) {
+  const int threads = oneapi::tbb::this_task_arena::max_concurrency();
+  const bool one_more = count > 1 && threads == usual_threads() && threads > 1;
+  ThreadLimit(threads + one_more).run([&] {
+    for_each_whole(count,
+                   [&](std::size_t i) { oneapi::tbb::this_task_arena::isolate([&] { work(i); }); });
   });
-  limits.insert(limits.end(), more.begin(), more.end());
-  return limits;
-}
-
-CompareJob job_of(const CompareJob& job, const std::string& name) {
-  CompareJob own = job;
-  ComparisonOptions& options = own.comparison;
-  for (const PairRule& rule : job.rules) {
-    if (!fits(rule.match, name)) continue;
-    options.limits = with_limits(options.limits, rule.limits);
-    options.warnings = with_limits(options.warnings, rule.warnings);
-    if (rule.tolerance) options.tolerance = rule.tolerance;
-    if (rule.default_limits) options.default_limits = *rule.default_limits;
-    own.regions.change(rule.mask, rule.ignored, options);
-  }
-  return own;
 }
 
 std::vector<PairReport> pairs_of(const Pairing& pairing) {
@@ -226,44 +203,36 @@ std::array<records::Named<std::string>, 2> reading_of(const PairReport& pair) {
   return facts;
 }
 
+PicturePair read_two(const CompareJob& job, const PairReport& pair) {
+  return read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers));
+}
+
 PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
                           ComparisonOptions& options) {
-  PicturePair pictures = read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers));
-  job.noise.read(has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "", pair,
-                 pictures, options);
-  const Image &a = pictures.a.image, &b = pictures.b.image;
-  if (!options.surfaces.empty() && options.surfaces.size() != a.pixel_count())
-    throw Error(ExitCode::kInput,
-                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
-                            a.height(), job.scene, options.surfaces.size()));
-  job.regions.apply(b.width(), b.height(), options);
-  take_part(pictures, pair.a, pair.b, options);
+  PicturePair pictures = read_two(job, pair);
+  prepare(pictures, pair, has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "", job,
+          options);
   return pictures;
 }
 
-std::string plain_id(const std::string& name) {
-  constexpr std::size_t kLongest = 80;
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  std::string id = name.substr(0, kLongest);
-  for (char& c : id)
-    if (kPlain.find(c) == std::string_view::npos) c = '-';
-  if (id == name && is_plain_name(id)) return id;
-  constexpr std::size_t kDigits = 10;
-  return "p" + id + "-" + hex(sha256(name)).substr(0, kDigits);
+PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures,
+                       bool are_files) {
+  ComparisonOptions options = job.comparison;
+  prepare(pictures, pair, "", job, options);
+  judge_pair(pair, pictures, job, options, has_automatic_exposures(options), are_files);
+  return pair;
 }
 
-fs::path difference_file(const CompareJob& job, const std::string& name) {
-  constexpr std::size_t kLongest = 255;
-  const fs::path own = name + ".png";
-  // A table may name a pair anything.
-  const bool is_inside = own.is_relative() && own == own.lexically_normal() &&
-                         *own.begin() != ".." && own.filename().string().size() <= kLongest;
-  return job.difference.path / (is_inside ? own : fs::path(plain_id(name) + ".png"));
+void require_pairs(const SetReport& report) {
+  if (report.pairs.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("no pair to compare: {} references have no picture, {} pictures no "
+                            "reference, and {} files are no pictures or do not fit the pattern",
+                            report.missing.size(), report.extra.size(), report.passed_over));
 }
 
 SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
-                        const std::function<void(std::size_t)>& done) {
+                        const std::function<void(std::size_t)>& done, const LookAtPair& look) {
   CompareJob job = asked;
   const bool one = is_one_pair(pairing);
   SetReport report;
@@ -292,16 +261,6 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
   const bool automatic = has_automatic_exposures(job.comparison);
   if (automatic && !one)
     job.comparison.viewing.hdr_exposures = exposures_for_all(report.pairs, job);
-  const DifferencePicture& wanted = job.difference;
-  const auto write = [&](const PairReport& pair, const Image& a, const Image& b,
-                         const Comparison& comparison, std::optional<double> of_set) {
-    const fs::path file = one ? wanted.path : difference_file(job, pair.name);
-    if (!one) make_directories(file.parent_path());
-    wanted.write(file, a, b, comparison, of_set);
-  };
-  const bool at_once = one || wanted.has_own_scale();
-  // One scale for the set. If that is the largest difference, all pairs come first.
-  std::vector<double> largest(report.pairs.size(), -1.0);
   std::atomic<std::size_t> count = 0;
   for_each_pair(report.pairs.size(), [&](std::size_t i) {
     PairReport& pair = report.pairs[i];
@@ -309,17 +268,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
       const CompareJob own = job_of(job, pair.name);
       const bool several = pair.references.size() > 1;
       if (several) pair = compare_with_each(pair, own, pairing, automatic && one);
-      if (!several || !wanted.path.empty() || !wanted.histogram.empty())
-        pair = compare_pair(
-            pair, own, pairing, automatic && one,
-            [&](const Image& a, const Image& b, const Comparison& comparison, Verdict verdict) {
-              if (one) wanted.write_histogram(a, b, comparison);
-              if (!wanted.is_wanted(verdict)) return;
-              if (at_once)
-                write(pair, a, b, comparison, std::nullopt);
-              else
-                largest[i] = wanted.largest(a, b, comparison);
-            });
+      if (!several || look) pair = compare_pair(pair, own, pairing, automatic && one, look);
       pair.known = known_of(job, pair.name);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kInput) throw;
@@ -327,19 +276,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
     }
     done(++count);
   });
-  if (wanted.path.empty() || at_once || largest.empty()) return report;
-  const double of_set = std::ranges::max(largest);
-  for_each_pair(report.pairs.size(), [&](std::size_t i) {
-    const PairReport& pair = report.pairs[i];
-    if (!(largest[i] >= 0)) return;
-    const CompareJob own = job_of(job, pair.name);
-    ComparisonOptions unused = own.comparison;
-    PicturePair pictures = read_compared(pair, own, pairing, unused);
-    if (allows_equal_nonfinite(own.comparison, pictures.b.source))
-      clear_equal_nonfinite(pictures.a.image, pictures.b.image);
-    write(pair, pictures.a.image, pictures.b.image, *pair.comparison, of_set);
-  });
   return report;
 }
 
-}  // namespace lobelia::cli
+}  // namespace lobelia

@@ -1,10 +1,10 @@
+#include "compare/set/picture_parts.hpp"
+
 #include <algorithm>
 
-#include "cli/compare_pictures.hpp"
-#include "cli/options.hpp"
-#include "compare/uncertainty/noise.hpp"
+#include "core/error.hpp"
 
-namespace lobelia::cli {
+namespace lobelia {
 namespace {
 
 /// Without the pixels that are ignored nothing would be left to compare.
@@ -15,41 +15,20 @@ void require_some_left(const PixelFlags& ignored) {
 
 }  // namespace
 
-void RegionFlags::add_to(CLI::App& command) {
-  OptionGroup group(command, "Parts of the pictures");
-  const auto add = [&](const char* name, std::vector<std::string>& texts, const char* help) {
-    group.add(name, texts, "FILE|rect:X,Y,W,H|polygon:X,Y X,Y ...", help)->expected(1)->take_all();
-  };
-  add("--mask", mask_texts_,
-      "Measure on this part as well (ids in .mask) and on the rest (.outside): the pixels of a picture "
-      "that are not 0, a rectangle, or a polygon, in quotes; may be given again, which adds to "
-      "the part. With --scene, only what lies on a surface too is inside");
-  add("--ignore", ignore_texts_,
-      "These pixels count as equal in every metric: A has the values of B there; may be given again");
-  group.add("--crop", crop_text_, "X,Y,W,H",
-            "Compare this part of both pictures alone. Masks and scenes are of the whole pictures");
-}
-
-void RegionFlags::read(ComparisonOptions& options) {
-  for (const std::string& text : mask_texts_) mask_.push_back(parse_mask_shape("--mask", text));
-  for (const std::string& text : ignore_texts_)
+PictureParts::PictureParts(const CompareChoice& choice, ComparisonOptions& options) {
+  for (const std::string& text : choice.mask) mask_.push_back(parse_mask_shape("--mask", text));
+  for (const std::string& text : choice.ignore)
     ignored_.push_back(parse_mask_shape("--ignore", text));
-  options.mask_of.insert(options.mask_of.begin(), mask_texts_.begin(), mask_texts_.end());
-  options.ignored_of = ignore_texts_;
-  if (crop_text_.empty()) return;
-  const MaskShape crop = parse_mask_shape("--crop", "rect:" + crop_text_);
+  options.mask_of.insert(options.mask_of.begin(), choice.mask.begin(), choice.mask.end());
+  options.ignored_of = choice.ignore;
+  if (choice.crop.empty()) return;
+  const MaskShape crop = parse_mask_shape("--crop", "rect:" + choice.crop);
   const auto& [x, y, width, height] = std::get<MaskShape::Rectangle>(crop.form);
   options.crop = PixelWindow{x, y, width, height};
 }
 
-void RegionFlags::add(const std::vector<std::string>& mask,
-                      const std::vector<std::string>& ignore) {
-  if (mask_texts_.empty()) mask_texts_ = mask;
-  ignore_texts_.insert(ignore_texts_.begin(), ignore.begin(), ignore.end());
-}
-
-void RegionFlags::change(std::span<const MaskShape> mask, std::span<const MaskShape> ignored,
-                         ComparisonOptions& options) {
+void PictureParts::change(std::span<const MaskShape> mask, std::span<const MaskShape> ignored,
+                          ComparisonOptions& options) {
   if (!mask.empty()) {
     const auto first = options.mask_of.begin();
     options.mask_of.erase(first, first + std::ptrdiff_t(mask_.size()));
@@ -63,13 +42,13 @@ void RegionFlags::change(std::span<const MaskShape> mask, std::span<const MaskSh
   }
 }
 
-std::vector<std::filesystem::path> RegionFlags::files() const {
+std::vector<std::filesystem::path> PictureParts::files() const {
   std::vector<std::filesystem::path> files = picture_files(mask_);
   for (std::filesystem::path& file : picture_files(ignored_)) files.push_back(std::move(file));
   return files;
 }
 
-void RegionFlags::apply(int width, int height, ComparisonOptions& options) const {
+void PictureParts::apply(int width, int height, ComparisonOptions& options) const {
   options.mask = options.surfaces;
   if (!mask_.empty()) {
     options.mask = pixels_inside(mask_, width, height);
@@ -93,4 +72,4 @@ void RegionFlags::apply(int width, int height, ComparisonOptions& options) const
   }
 }
 
-}  // namespace lobelia::cli
+}  // namespace lobelia
