@@ -8,8 +8,8 @@
 #include <exception>
 #include <limits>
 
-#include "compare/compare.hpp"
 #include "compare/profile/blob.hpp"
+#include "compare/set/run.hpp"
 #include "core/choice.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
@@ -147,6 +147,47 @@ Rendered rendered(Scene scene, const RenderSettings& settings) {
   return {picture_of(result.image), result.samples, result.render_seconds, result.instruction_set};
 }
 
+CompareChoice choice_of(const CompareSettings& settings, const CompareOptions& options,
+                        CompareOption::For pictures) {
+  std::vector<GivenOption> given;
+  for (const auto& [name, value] : options) {
+    const auto found = std::ranges::find(given, name, &GivenOption::name);
+    if (found == given.end())
+      given.push_back({name, std::vector{value}});
+    else
+      found->texts->push_back(value);
+  }
+  CompareChoice choice = read_choice(given, pictures);
+  for (const Limit& limit : settings.limits)
+    choice.fail.push_back(fmt::format("{}={}", limit.metric, limit.limit));
+  if (!settings.default_limits) choice.no_default_limits = true;
+  for (const std::string& metric : settings.metrics)
+    choice.metrics += (choice.metrics.empty() ? "" : ",") + metric;
+  return choice;
+}
+
+/// Compares the pictures in memory, or without them the two files.
+Comparison compared(const CompareChoice& choice, const std::string& picture,
+                    const std::string& reference, PicturePair* in_memory) {
+  const CompareJob job = make_job(choice, nullptr);
+  PairReport report;
+  report.a = picture;
+  report.b = reference;
+  ThreadLimit(choice.threads).run([&] {
+    PicturePair pair = in_memory ? std::move(*in_memory) : read_two(job, report);
+    report = compare_two(job, std::move(report), pair, in_memory == nullptr);
+  });
+  const lobelia::Comparison& found = *report.comparison;
+  Comparison result;
+  result.pass = is_pass(report.verdict());
+  result.verdict = verdict_name(report.verdict());
+  result.metrics = found.metrics;
+  for (const LimitResult& limit : found.limits)
+    result.limits.push_back({limit.metric, limit.limit, limit.value, limit.pass});
+  result.record = records::record_text(pair_record(report));
+  return result;
+}
+
 }  // namespace
 
 Error::Error(ErrorCode code, const std::string& message)
@@ -179,25 +220,23 @@ double Comparison::value(const std::string& metric) const {
 
 Comparison compare(const Picture& picture, const Picture& reference,
                    const CompareSettings& settings) {
+  return compare(picture, reference, settings, {});
+}
+
+Comparison compare(const Picture& picture, const Picture& reference,
+                   const CompareSettings& settings, const CompareOptions& options) {
   return guarded([&] {
-    ComparisonOptions options;
-    options.highlight = true;
-    options.default_limits = settings.default_limits;
-    options.metrics = settings.metrics;
-    for (const Limit& limit : settings.limits)
-      options.limits.push_back({limit.metric, limit.limit});
-    if (!settings.default_limits && settings.limits.empty())
-      refuse("without the default limits at least one limit is needed to judge by");
-    const lobelia::Comparison found =
-        lobelia::compare(image_of(picture), image_of(reference), options);
-    Comparison result;
-    result.pass = is_pass(found.verdict);
-    result.verdict = verdict_name(found.verdict);
-    result.metrics = found.metrics;
-    for (const LimitResult& limit : found.limits)
-      result.limits.push_back({limit.metric, limit.limit, limit.value, limit.pass});
-    result.record = records::record_text(comparison_record(found, "picture", "reference"));
-    return result;
+    const CompareChoice choice = choice_of(settings, options, CompareOption::For::kPictures);
+    PicturePair pair{{image_of(picture), {}, {}}, {image_of(reference), {}, {}}};
+    return compared(choice, "picture", "reference", &pair);
+  });
+}
+
+Comparison compare_files(const std::string& picture, const std::string& reference,
+                         const CompareSettings& settings, const CompareOptions& options) {
+  return guarded([&] {
+    const CompareChoice choice = choice_of(settings, options, CompareOption::For::kFiles);
+    return compared(choice, picture, reference, nullptr);
   });
 }
 

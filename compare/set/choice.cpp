@@ -288,11 +288,14 @@ std::span<const CompareOption> compare_options() {
   return all;
 }
 
-CompareChoice read_choice(std::span<const GivenOption> options) {
+CompareChoice read_choice(std::span<const GivenOption> options, For pictures) {
   CompareChoice choice;
   std::set<std::string_view> names;
   for (const auto& [name, texts] : options) {
     const CompareOption& option = option_named(name);
+    if (option.applies_to > pictures)
+      refuse_value(option, option.applies_to == For::kSets ? "is for sets of files"
+                                                           : "is for pictures that are files");
     if (!texts) continue;
     for (const std::string& text : *texts) check_value(option, text);
     std::visit(Setter{option, *texts, choice}, option.place);

@@ -48,6 +48,9 @@ struct CompareChoice {
   int threads = 0;
 };
 
+/// A choice at this exposure, and on a plain display whatever $OCIO says: for work that is the same on every machine.
+CompareChoice plain_choice(double exposure_stops);
+
 /// One option. Adding one is a member of CompareChoice and a line in the table.
 struct CompareOption {
   using Place =
@@ -79,9 +82,10 @@ struct GivenOption {
   std::optional<std::vector<std::string>> texts;
 };
 
-/// Reads options by name. Throws Error(kUsage) for a name that is unknown, a value that is not allowed, and options that
-/// exclude or need each other.
-CompareChoice read_choice(std::span<const GivenOption> options);
+/// Reads options by name. Throws Error(kUsage) for a name that is unknown, an option that is for more than `pictures`, a
+/// value that is not allowed, and options that exclude or need each other.
+CompareChoice read_choice(std::span<const GivenOption> options,
+                          CompareOption::For pictures = CompareOption::For::kSets);
 
 /// Throws Error(kUsage) unless `text` is METRIC=LIMIT. `where` names it: "--fail".
 MetricLimit parse_limit(std::string_view where, const std::string& text);

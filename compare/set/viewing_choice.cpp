@@ -6,6 +6,7 @@
 
 #include "compare/set/choice.hpp"
 #include "core/choice.hpp"
+#include "core/colour.hpp"
 
 namespace lobelia {
 namespace {
@@ -49,6 +50,13 @@ HdrExposures parse_exposures(const std::string& text) {
 }
 
 }  // namespace
+
+CompareChoice plain_choice(double exposure_stops) {
+  CompareChoice choice;
+  choice.exposure = fmt::format("{}", exposure_stops);
+  choice.ocio = kOwnConfig;
+  return choice;
+}
 
 void choose_viewing(const CompareChoice& choice, Viewing& viewing) {
   const std::string& exposure = choice.exposure;

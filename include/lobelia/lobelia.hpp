@@ -123,7 +123,8 @@ LOBELIA_NAMESPACE v0 {
   struct Comparison {
     bool pass = false;
     std::string
-        verdict;  ///< "pass", "differs", or "non-finite": a NaN or an infinity, nothing was measured
+        verdict;  ///< "pass", "differs", or "non-finite": a NaN or an infinity, nothing was measured;
+                  ///< of pictures with noise "same", "different" or "undecided"
     std::vector<std::pair<std::string, double>>
         metrics;                 ///< id and value, in the catalogue's order
     std::vector<Judged> limits;  ///< the verdict follows from these
@@ -133,10 +134,25 @@ LOBELIA_NAMESPACE v0 {
     LOBELIA_API double value(const std::string& metric) const;
   };
 
-  /// Compares `picture` with `reference`, of the same size. Throws Error(input) if the sizes differ, Error(usage) for a
-  /// wrong shape, an unknown metric or a limit out of range.
+  /// Options of `lobelia compare` by name (docs/command_line.md): {{"tolerance", "6e-4,1e-8,3"}, {"all_layers", "true"}}.
+  /// One that may be given again may occur again.
+  using CompareOptions = std::vector<std::pair<std::string, std::string>>;
+
+  /// Compares `picture` with `reference`, of the same size, as the program does: at an exposure that suits them, by the
+  /// default limits of the whole and of the highlight. Like the program it shows them by $OCIO, if that is set. Throws
+  /// Error(input) if the sizes differ, Error(usage) for a wrong shape, an unknown metric or a limit out of range.
   LOBELIA_API Comparison compare(const Picture& picture, const Picture& reference,
                                  const CompareSettings& settings = {});
+  /// The same with further options. Throws Error(usage) also for those that are for files.
+  LOBELIA_API Comparison compare(const Picture& picture, const Picture& reference,
+                                 const CompareSettings& settings, const CompareOptions& options);
+
+  /// Compares two files with all that they hold, such as alpha: the verdict is the worst, and `metrics` and `limits` are of
+  /// the picture. A file tells how far its integers were rounded, which a Picture does not. Throws Error(input) for a file
+  /// that cannot be read, and as compare().
+  LOBELIA_API Comparison compare_files(const std::string& picture, const std::string& reference,
+                                       const CompareSettings& settings = {},
+                                       const CompareOptions& options = {});
 
   // ---- profile
 
