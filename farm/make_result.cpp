@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "compare/compare.hpp"
+#include "compare/set/job.hpp"
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -159,6 +159,17 @@ Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floor
   return tolerance;
 }
 
+CompareChoice cell_choice(double exposure_stops, const Tolerance& tolerance, bool exact) {
+  CompareChoice choice = plain_choice(exposure_stops);
+  choice.no_default_limits = true;
+  if (!exact)
+    for (const MetricLimit& limit : default_limits())
+      choice.fail.push_back(fmt::format("{}={}", limit.metric, limit.limit));
+  choice.tolerance =
+      fmt::format("{},{},{}", tolerance.relative, tolerance.of_peak, tolerance.allowed_outliers);
+  return choice;
+}
+
 void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
                      records::Result& record) {
   const auto file = [](const MadePicture& picture) { return picture_file(picture.engine); };
@@ -178,14 +189,12 @@ void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft
         "its picture may have noise that is not known, and no tolerance of single pixels judges that";
     return;
   }
-  ComparisonOptions options;
-  options.default_limits = false;
-  options.viewing.exposure_stops = exposure;
-  options.tolerance = tolerance_of(scene, task.floors);
-  if (!exact) {
-    options.limits.assign(default_limits().begin(), default_limits().end());
-    options.noise = noise_of(task.a, task.b);
-  }
+  Tolerance tolerance = tolerance_of(scene, task.floors);
+  ComparisonOptions options = judging_options(cell_choice(exposure, tolerance, exact));
+  // Profiles measure the highlight of every cell.
+  options.highlight = false;
+  options.tolerance->edges = std::move(tolerance.edges);
+  if (!exact) options.noise = noise_of(task.a, task.b);
   const Comparison comparison = compare(a, b, options);
 
   const std::string name = comparison_name(task.a.engine, task.b.engine);

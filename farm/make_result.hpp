@@ -11,6 +11,7 @@
 
 namespace lobelia {
 
+struct CompareChoice;
 struct Tolerance;
 
 /// One result is wrong; the run goes on.
@@ -60,6 +61,10 @@ void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft
 
 /// `scene` is one that truth::evaluate() takes; edges are only of such scenes.
 Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floors);
+
+/// How a cell is judged: by the tolerance alone where both pictures are `exact`, else also by the default limits, as given
+/// ones, for the noise is known. Edges and noise come besides.
+CompareChoice cell_choice(double exposure_stops, const Tolerance& tolerance, bool exact);
 
 /// Writes profile.json.
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);

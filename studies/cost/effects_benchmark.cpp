@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "compare/compare.hpp"
+#include "compare/set/job.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/error_time_chart.hpp"
@@ -118,8 +118,9 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
   const int more = options.rounds(16, 4, 4);
   options.progress(name + ": what is lost");
   const Image whole = with_more_samples(cases[0], more, 0);
-  ComparisonOptions seen;
-  seen.viewing.exposure_stops = exposure(whole);
+  CompareChoice choice = plain_choice(exposure(whole));
+  choice.metrics = "ciede2000,flip.ldr";
+  const ComparisonOptions seen = judging_options(choice);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const EffectCase& one = cases[i];
     const Comparison comparison = compare(with_more_samples(one, more, 0), whole, seen);

@@ -9,7 +9,7 @@
 #include <map>
 #include <memory>
 
-#include "compare/compare.hpp"
+#include "compare/set/job.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/error_time_chart.hpp"
@@ -222,8 +222,9 @@ Table measure_scene(const NamedScene& named, const Options& options) {
       for (const auto& [stage, seconds] : one.last.stages) one.stages[stage].push_back(seconds);
     }
 
-  ComparisonOptions seen;
-  seen.viewing.exposure_stops = exposure_for_peak(peak_value(truth.image));
+  CompareChoice choice = plain_choice(exposure_for_peak(peak_value(truth.image)));
+  choice.metrics = "max_rel_peak,ciede2000";
+  const ComparisonOptions seen = judging_options(choice);
   for (Contender& one : all)
     table.variants.push_back(measured_contender(one, truth.image, edges, seen));
   if (!(table.variants[0].errors[0].second <= kMostError))
