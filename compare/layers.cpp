@@ -64,11 +64,6 @@ std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
   return results;
 }
 
-bool is_opaque(const fs::path& file, const std::string& alpha) {
-  return std::ranges::all_of(read_picture(file, alpha).image.values(),
-                             [](float value) { return value == 1; });
-}
-
 LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const PicturePair& picture,
                               ComparisonOptions options) {
   PicturePair pair{read_picture(a, picture.a.source.alpha),
@@ -84,17 +79,41 @@ LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const Pictur
   return layer;
 }
 
-/// Drops from the layers of one file each alpha that makes a common layer opaque, for that equals no alpha.
-void drop_opaque_alpha(const fs::path& a, const fs::path& b, const PictureSource& layer_a,
-                       const PictureSource& layer_b, CommonLayers& common) {
-  const auto drop = [](const fs::path& file, const std::string& alpha, const std::string& other,
-                       std::vector<std::string>& names) {
-    const auto found = std::ranges::find(names, alpha);
-    if (!alpha.empty() && other.empty() && found != names.end() && is_opaque(file, alpha))
-      names.erase(found);
-  };
-  drop(a, layer_a.alpha, layer_b.alpha, common.only_a);
-  drop(b, layer_b.alpha, layer_a.alpha, common.only_b);
+/// A difference if one side alone has an alpha that is not 1 everywhere: an alpha of 1 equals none.
+std::optional<LayerComparison> find_lost_alpha(const fs::path& a, const fs::path& b,
+                                               const PictureSource& source_a,
+                                               const PictureSource& source_b,
+                                               const ComparisonOptions& options) {
+  const bool has_a = !source_a.alpha.empty();
+  if (has_a != source_b.alpha.empty()) return std::nullopt;
+  const std::string& name = has_a ? source_a.alpha : source_b.alpha;
+  PicturePair pair{read_picture(has_a ? a : b, name), {}};
+  pair.b.image = Image(pair.a.image.width(), pair.a.image.height());
+  std::ranges::fill(pair.b.image.values(), 1.0f);
+  take_part(pair, a.string(), b.string(), options);
+  // Weights of a filter that add up to 1 are off by their rounding.
+  constexpr float kRounding = 1e-3f;
+  std::int64_t pixels = 0;
+  float least = 1;
+  for (std::size_t i = 0; i < pair.a.image.values().size(); i += 3) {
+    const float value = pair.a.image.values()[i];
+    if (std::abs(value - 1) <= kRounding) continue;
+    ++pixels;
+    least = std::fmin(least, value);
+  }
+  if (pixels == 0) return std::nullopt;
+  LayerComparison layer{name, has_a ? pair.a.source : source_a, has_a ? source_b : pair.a.source};
+  layer.problem =
+      fmt::format("only {} has this alpha, and {} pixels of it are not 1, the least {:.3g}",
+                  has_a ? 'a' : 'b', pixels, least);
+  return layer;
+}
+
+/// Of an alpha that was judged with its colours, or is not judged, nothing more is said.
+void take_out_alpha(const PictureSource& layer_a, const PictureSource& layer_b,
+                    CommonLayers& common) {
+  if (!layer_a.alpha.empty()) std::erase(common.only_a, layer_a.alpha);
+  if (!layer_b.alpha.empty()) std::erase(common.only_b, layer_b.alpha);
 }
 
 Names layer_and_alpha(const PictureSource& source) {
@@ -241,31 +260,29 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
   } else if (overscan) {
     result.compared.push_back(compare_overscan(source_a.layer, picture, *overscan, options));
   }
-  if (options.noise || layers.ignore_alpha)
+  if (layers.ignore_alpha || (options.noise && alpha_in_a && alpha_in_b))
     left.alpha = alpha_in_a || alpha_in_b;
   else if (alpha_in_a && alpha_in_b)
     result.compared.push_back(compare_alpha(a, b, picture, options));
-  else if (alpha_in_a || alpha_in_b)
-    left.alpha = !(alpha_in_a ? is_opaque(a, source_a.alpha) : is_opaque(b, source_b.alpha));
+  else if (auto lost = find_lost_alpha(a, b, source_a, source_b, options))
+    result.compared.push_back(std::move(*lost));
 
   Names in_a = layer_and_alpha(source_a), in_b = layer_and_alpha(source_b);
   if (layers.all) {
     CommonLayers& common = result.common.emplace(common_layers(a, b));
-    if (layers.ignore_alpha || (alpha_in_a && alpha_in_b)) {
-      std::erase(common.only_a, source_a.alpha);
-      std::erase(common.only_b, source_b.alpha);
-    } else {
-      left.alpha = left.alpha && alpha_in_a;  // an alpha that only b has is missing, and fails
-      drop_opaque_alpha(a, b, source_a, source_b, common);
-    }
+    take_out_alpha(source_a, source_b, common);
     for (const std::string& name : common.both) {
       if (in_a.contains(name) || in_b.contains(name)) continue;
-      for (LayerComparison& layer : compare_layer(a, b, name, options)) {
-        drop_opaque_alpha(a, b, layer.a, layer.b, common);
-        left.mip_levels =
-            std::max({left.mip_levels, layer.a.mip_levels - 1, layer.b.mip_levels - 1});
-        result.compared.push_back(std::move(layer));
-      }
+      std::vector<LayerComparison> made = compare_layer(a, b, name, options);
+      const PictureSource layer_a = made.front().a, layer_b = made.front().b;
+      const bool is_comparable = made.front().problem.empty();
+      left.mip_levels = std::max({left.mip_levels, layer_a.mip_levels - 1, layer_b.mip_levels - 1});
+      std::ranges::move(made, std::back_inserter(result.compared));
+      if (auto lost = is_comparable ? find_lost_alpha(a, b, layer_a, layer_b, options)
+                                    : std::optional<LayerComparison>())
+        result.compared.push_back(std::move(*lost));
+      if (layer_a.alpha.empty() != layer_b.alpha.empty()) take_out_alpha(layer_a, layer_b, common);
+      in_a.insert(layer_a.alpha);
     }
     in_a.insert(common.both.begin(), common.both.end());
     in_b.insert(source_b.layers.begin(), source_b.layers.end());
@@ -294,9 +311,14 @@ std::string to_text(const NotCompared& not_compared) {
 }
 
 Verdict worst_verdict(Verdict picture, const OtherLayers& others) {
+  // Where noise is known a difference has another name, and comes after kSame.
+  const Verdict differs = picture >= Verdict::kSame ? Verdict::kDifferent : Verdict::kDiffers;
   Verdict worst = picture;
-  for (const LayerComparison& layer : others.compared) worst = std::max(worst, layer.verdict());
-  if (others.common && !others.common->only_b.empty()) worst = std::max(worst, Verdict::kDiffers);
+  const auto count = [&](Verdict verdict) {
+    worst = std::max(worst, verdict == Verdict::kDiffers ? differs : verdict);
+  };
+  for (const LayerComparison& layer : others.compared) count(layer.verdict());
+  if (others.common && !others.common->only_b.empty()) count(Verdict::kDiffers);
   return worst;
 }
 

@@ -56,7 +56,7 @@ struct LayerComparison {
   PictureSource a, b;
   /// Empty if the layers are identical, or `problem` says why they cannot be compared.
   std::optional<Comparison> comparison = {};
-  std::string problem = {};  ///< counts as a difference: the sizes differ
+  std::string problem = {};  ///< counts as a difference: the sizes differ, or an alpha is lost
   bool identical = false;    ///< and finite; not measured
   /// If set, all data on this window are compared. (0, 0) is the display window's first pixel.
   std::optional<PixelWindow> overscan = {};
@@ -79,8 +79,8 @@ std::string to_text(const NotCompared& not_compared);
 struct OtherLayers {
   std::vector<LayerComparison> compared;
   NotCompared not_compared;
-  /// If all layers were requested. A layer that only `b` has is missing from `a`, and fails, unless it is an alpha of 1,
-  /// which equals no alpha.
+  /// If all layers were requested. A layer that only `b` has is missing from `a`, and fails. An alpha is listed only if its
+  /// colours were not compared.
   std::optional<CommonLayers> common = {};
 };
 
@@ -88,8 +88,9 @@ struct OtherLayers {
 CommonLayers common_layers(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Compares everything but the display window of `picture`: all data outside it, its alpha, and if requested all other
-/// layers. Alpha is judged at exposure 0 on a plain display. If noise is known nothing is compared, for it is the noise of
-/// the picture only. Only one pair is in memory at a time. Errors as read_picture() and compare().
+/// layers. Alpha is judged at exposure 0 on a plain display. An alpha that one side alone has differs unless it is 1
+/// everywhere, which equals none. If noise is known nothing else is compared, for it is the noise of the picture only. Only
+/// one pair is in memory at a time. Errors as read_picture() and compare().
 OtherLayers compare_others(const std::filesystem::path& a, const std::filesystem::path& b,
                            const PicturePair& picture, const LayerOptions& layers,
                            const ComparisonOptions& options);

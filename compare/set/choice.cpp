@@ -50,7 +50,8 @@ std::vector<CompareOption> options_of_sets() {
            "Compare every layer; the verdict is the worst, and a layer that only B has fails",
        .excludes = {"layer"}},
       {"ignore-alpha", &Choice::ignore_alpha, For::kFiles, "Layers", "",
-       "Do not judge the alpha of the picture, which is judged where both have one"},
+       "Do not judge the alpha of the picture; otherwise an alpha that one side alone has "
+       "fails, unless it is 1 everywhere"},
   };
 }
 
