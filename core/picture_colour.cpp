@@ -237,9 +237,9 @@ void decode(const TransferCurve& curve, Image& image, const std::array<double, 3
   }
 }
 
-bool are_rec709(const Chromaticities& chromaticities) {
-  for (std::size_t i = 0; i < chromaticities.size(); ++i)
-    if (!(std::abs(chromaticities[i] - kRec709Chromaticities[i]) <= 1e-4)) return false;
+bool are_equal(const Chromaticities& some, const Chromaticities& others) {
+  for (std::size_t i = 0; i < some.size(); ++i)
+    if (!(std::abs(some[i] - others[i]) <= 1e-4)) return false;
   return true;
 }
 
@@ -266,7 +266,8 @@ std::optional<RgbMatrix> to_rec709(const Chromaticities& from) {
   const Column seen = product(kBradford, white_xyz(from)),
                ours = product(kBradford, white_xyz(kRec709Chromaticities));
   RgbMatrix adapt{};
-  for (std::size_t i = 0; i < 3; ++i) adapt[i][i] = ours[i] / seen[i];
+  const bool is_xyz = are_equal(from, kXyzChromaticities);
+  for (std::size_t i = 0; i < 3; ++i) adapt[i][i] = is_xyz ? 1 : ours[i] / seen[i];
   const RgbMatrix to_d65 = product(inverse(kBradford), product(adapt, kBradford));
   const RgbMatrix result = product(inverse(*to_xyz(kRec709Chromaticities)), product(to_d65, *xyz));
   for (const auto& row : result)

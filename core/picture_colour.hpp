@@ -14,6 +14,9 @@ namespace lobelia {
 /// CIE 1931 x, y of red, green, blue and white.
 using Chromaticities = std::array<double, 8>;
 
+/// The primaries of files that hold CIE XYZ.
+inline constexpr Chromaticities kXyzChromaticities = {1, 0, 0, 1, 0, 0, 1.0 / 3, 1.0 / 3};
+
 /// ITU-R BT.709-6, item 1.3 and 1.4.
 inline constexpr Chromaticities kRec709Chromaticities = {0.64, 0.33, 0.30,   0.60,
                                                          0.15, 0.06, 0.3127, 0.3290};
@@ -58,14 +61,15 @@ void decode(const TransferCurve& curve, Image& image,
             const std::array<double, 3>& luminance = luminance_weights(kRec709Chromaticities));
 
 /// Within 1e-4 each, because published chromaticities are rounded.
-bool are_rec709(const Chromaticities& chromaticities);
+bool are_equal(const Chromaticities& some, const Chromaticities& others);
 
 /// ITU-T H.273, table 2; Rec. 709 for "unspecified", nothing for unknown code points.
 std::optional<Chromaticities> chromaticities_of_code_point(int primaries);
 
 /// By rows: linear RGB of `from` to linear Rec. 709. As OpenEXR's AcesInputFile converts (ImfAcesFile.cpp): to XYZ by
 /// RGBtoXYZ (ImfChromaticities.cpp), from the file's white to D65 by Bradford's cone responses, to RGB. Grey stays as
-/// it is. Nothing for impossible primaries: not finite, far away, on a line, or with the white outside. Imaginary
+/// it is. CIE XYZ is not adapted: its white is that of the numbers, not of the picture, as in OpenEXR's pair XYZ.exr and
+/// Rec709.exr (openexr-images, Chromaticities). Nothing for impossible primaries: not finite, far away, on a line, or with the white outside. Imaginary
 /// primaries such as those of ACES are allowed.
 std::optional<RgbMatrix> to_rec709(const Chromaticities& from);
 

@@ -12,7 +12,7 @@ namespace {
 
 /// To Rec. 709, for three channels.
 void convert_primaries(const fs::path& path, const Chromaticities& from, Picture& picture) {
-  if (are_rec709(from)) return;
+  if (are_equal(from, kRec709Chromaticities)) return;
   const auto matrix = to_rec709(from);
   if (!matrix)
     unreadable_picture(path,

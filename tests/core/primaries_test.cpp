@@ -14,7 +14,6 @@ namespace lobelia {
 namespace {
 
 constexpr Chromaticities kAces = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
-constexpr Chromaticities kXyz = {1, 0, 0, 1, 0, 0, 1.0 / 3, 1.0 / 3};
 
 Imf::Chromaticities of_openexr(const Chromaticities& c) {
   const auto point = [&](std::size_t i) {
@@ -50,7 +49,7 @@ void expect_openexrs(const Chromaticities& from) {
 }
 
 TEST(RgbMatrices, AreThoseOfOpenExrAndLeaveGreyAsItIs) {
-  for (const Chromaticities& from : {kAces, kXyz, kRec709Chromaticities}) expect_openexrs(from);
+  for (const Chromaticities& from : {kAces, kRec709Chromaticities}) expect_openexrs(from);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> shift(-0.05, 0.05);
   for (int i = 0; i < 200; ++i) {
@@ -58,6 +57,25 @@ TEST(RgbMatrices, AreThoseOfOpenExrAndLeaveGreyAsItIs) {
     for (double& value : from) value += shift(random);
     expect_openexrs(from);
   }
+}
+
+TEST(RgbMatrices, OfXyzUndoOpenExrsToXyzWithoutAdaptation) {
+  const Imath::M44f to_xyz = Imf::RGBtoXYZ(of_openexr(kRec709Chromaticities), 1);
+  const RgbMatrix back = to_rec709(kXyzChromaticities).value();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> value(0, 10);
+  for (int i = 0; i < 200; ++i) {
+    const Imath::V3f rgb(value(random), value(random), value(random)), xyz = rgb * to_xyz;
+    for (int c = 0; c < 3; ++c) {
+      const std::array<double, 3>& row = back[std::size_t(c)];
+      EXPECT_NEAR(row[0] * double(xyz.x) + row[1] * double(xyz.y) + row[2] * double(xyz.z),
+                  double(rgb[c]), 1e-4);
+    }
+  }
+  Chromaticities adapted = kXyzChromaticities;  // channels that are 1 for D65
+  adapted[6] = 0.3127;
+  adapted[7] = 0.3290;
+  expect_openexrs(adapted);
 }
 
 TEST(RgbMatrices, OfPrimariesThatAreNoneDoNotExist) {
