@@ -1,6 +1,7 @@
 // A comparison and its layers as records.
 #include "compare/highlight_region.hpp"
 #include "compare/layers.hpp"
+#include "core/orientation.hpp"
 
 namespace lobelia {
 namespace {
@@ -35,6 +36,7 @@ records::PictureRead picture_record(const PictureSource& source) {
   record.multiplied_by_alpha = source.multiplied_by_alpha;
   record.data_window = window_record(source.data);
   record.display_window = window_record(source.display);
+  if (source.orientation != kUpright) record.orientation = source.orientation;
   record.chromaticities = source.chromaticities;
   record.icc_profile = source.icc_profile;
   if (!source.icc_profile.empty()) {

@@ -19,31 +19,11 @@ constexpr std::string_view kXmp = "http://ns.adobe.com/xap/1.0/\0"sv, kMpf = "MP
                            kIso = "urn:iso:std:iso:ts:21496:-1\0"sv,
                            kGainMapSpace = "http://ns.adobe.com/hdr-gain-map/1.0/";
 
-/// The data of a JPEG's segments before its pixels, by the text that they begin with, which is cut off.
-std::vector<std::string_view> segments(std::string_view jpeg, std::string_view beginning) {
-  std::vector<std::string_view> found;
-  std::size_t at = 2;
-  while (at + 4 <= jpeg.size() && jpeg[at] == '\xff') {
-    const int marker = static_cast<unsigned char>(jpeg[at + 1]);
-    constexpr int kFill = 0xff, kScan = 0xda;
-    if (marker == kFill) {
-      ++at;
-      continue;
-    }
-    const std::size_t length = number_at(jpeg, at + 2, false, 2);
-    if (marker == kScan || length < 2) break;
-    const std::string_view data = jpeg.substr(at + 4, length - 2);
-    if (data.starts_with(beginning)) found.push_back(data.substr(beginning.size()));
-    at += 2 + length;
-  }
-  return found;
-}
-
 /// The pictures that MPF lists besides the first, within the file.
 std::vector<std::string_view> further_pictures(std::string_view jpeg) {
   std::vector<std::string_view> found;
   constexpr std::uint64_t kMostPictures = 16, kEntries = 0xb002, kEntrySize = 16;
-  for (const std::string_view mpf : segments(jpeg, kMpf)) {
+  for (const std::string_view mpf : jpeg_segments(jpeg, kMpf)) {
     // As a TIFF. Offsets of pictures count from its beginning.
     const bool little = mpf.starts_with("II");
     const auto start = std::uint64_t(mpf.data() - jpeg.data());
@@ -89,7 +69,7 @@ struct Xmp {
   std::string prefix;
 
   explicit Xmp(std::string_view jpeg) {
-    for (const std::string_view packet : segments(jpeg, kXmp)) {
+    for (const std::string_view packet : jpeg_segments(jpeg, kXmp)) {
       if (description || packet.find(kGainMapSpace) == packet.npos) continue;
       document.load_buffer(packet.data(), packet.size());
       description = document.find_node([&](const pugi::xml_node& node) {
@@ -211,10 +191,10 @@ std::optional<GainMap> find_gain_map(const std::filesystem::path& path, std::str
   for (const std::string_view file : further_pictures(jpeg)) {
     if (const Xmp xmp(file); xmp.description)
       if (const auto gain = by_xmp(xmp)) return checked(*gain, file);
-    for (const std::string_view data : segments(file, kIso))
+    for (const std::string_view data : jpeg_segments(file, kIso))
       if (const auto gain = by_iso(path, data)) return checked(*gain, file);
   }
-  if (Xmp(jpeg).description || !segments(jpeg, kIso).empty())
+  if (Xmp(jpeg).description || !jpeg_segments(jpeg, kIso).empty())
     unreadable_picture(path,
                        "it says that it has a gain map, which is not there; --base-only reads the "
                        "picture without it");

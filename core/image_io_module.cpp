@@ -15,9 +15,11 @@
 #include "core/error.hpp"
 #include "core/gain_map.hpp"
 #include "core/icc_profile.hpp"
+#include "core/orientation.hpp"
 #include "core/picture.hpp"
 #include "core/picture_layers.hpp"
 #include "core/picture_light.hpp"
+#include "core/subsampled_exr.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -133,11 +135,9 @@ void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec, std::
                                  "(oiiotool DEEP.exr --flatten -o FLAT.exr)",
                                  part_name.empty() ? "it" : "its part '" + part_name + "'"));
   if (spec.depth > 1) unreadable(path, fmt::format("it is a volume, {} pictures deep", spec.depth));
-  const PixelWindow data = data_window(spec), display = display_window(spec, format);
-  for (const std::string& problem :
-       {window_problem("its data window", data), window_problem("its display window", display)})
-    if (!problem.empty()) unreadable(path, problem);
-  if (are_apart(data, display)) unreadable(path, "its data window lies outside its display window");
+  if (const std::string problem = windows_problem(data_window(spec), display_window(spec, format));
+      !problem.empty())
+    unreadable(path, problem);
   // In these formats the attributes below are any text in the file.
   if (format == "png" || format == "openexr") return;
   // OpenImageIO would convert such colours to RGB without their profile.
@@ -330,6 +330,13 @@ void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const Profi
   apply_gain(*gain, read_map(file, *gain, claim_of(spec, "jpeg")), primaries, picture.image);
 }
 
+Image read_colours(const Reader& reader, const PictureLayer& layer,
+                   const ProfiledMeaning& meaning) {
+  Image image = read_channels(reader, layer.where);
+  if (layer.has_chroma) mix_luminance_chroma(reader.path, meaning.primaries, image);
+  return image;
+}
+
 /// Whether the file's rows are those of the picture, and each needs no other.
 bool has_plain_rows(const OIIO::ImageSpec& spec, const PictureSource& source) {
   return source.format == "openexr" && spec.tile_width == 0 && source.data == source.display;
@@ -343,14 +350,23 @@ void read_in_bands(const Reader& whole, const PictureLayer& layer, const Profile
     Reader reader = whole;
     reader.first_row = y;
     reader.rows = std::min(rows, height - y);
-    Picture band{read_channels(reader, layer.where), {}, source};
+    Picture band{read_colours(reader, layer, meaning), {}, source};
     to_light(file.path, meaning, band);
     file.on_rows(band, y);
   }
 }
 
+void undo_orientation(const PictureBytes& file, std::size_t part, Picture& picture) {
+  const std::string& format = picture.source.format;
+  const int stated = stated_orientation(file.bytes, format, part);
+  turn_upright(picture,
+               format == "tiff" ? orientation_left_by_libtiff(file.bytes, stated, part) : stated);
+  picture.source.orientation = stated;
+}
+
 Picture read(const PictureBytes& file, const std::string& layer_name) {
   const std::filesystem::path& path = file.path;
+  if (has_subsampled_channels(file.bytes)) return read_subsampled_exr(file, layer_name);
   auto input = open(file);
   const std::vector<PicturePart> parts = parts_of(file, *input);
   if (input->format_name() != std::string_view("openexr")) input = open(file);
@@ -384,17 +400,18 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
     read_in_bands(reader, layer, meaning, file, source);
     return picture;
   }
-  picture.image = read_channels(reader, layer.where);
+  picture.image = read_colours(reader, layer, meaning);
   to_light(path, meaning, picture);
   if (format == "jpeg" && layer_name.empty()) add_gain(file, spec, meaning, picture);
   source.multiplied_by_alpha = layer.is_colour && is_unassociated(spec, format);
   if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
-  if (!is_inside(source.data, source.display)) picture.overscan = picture.image;
-  picture.image = place(std::move(picture.image), source.data, source.display);
+  place_on_display(picture);
+  if (picture.overscan.pixel_count() == 0) undo_orientation(file, layer.part, picture);
   return picture;
 }
 
 std::vector<std::string> list_layers(const PictureBytes& file) {
+  if (has_subsampled_channels(file.bytes)) return subsampled_exr_layers(file);
   return picture_layer_names(parts_of(file, *open(file)));
 }
 

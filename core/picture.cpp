@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/orientation.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -35,6 +36,13 @@ bool is_inside(const PixelWindow& inner, const PixelWindow& outer) {
          std::int64_t{inner.y} + inner.height <= std::int64_t{outer.y} + outer.height;
 }
 
+std::string windows_problem(const PixelWindow& data, const PixelWindow& display) {
+  for (const std::string& problem :
+       {window_problem("its data window", data), window_problem("its display window", display)})
+    if (!problem.empty()) return problem;
+  return are_apart(data, display) ? "its data window lies outside its display window" : "";
+}
+
 Image place(Image image, const PixelWindow& data, const PixelWindow& display) {
   if (data == display) return image;
   Image result(display.width, display.height);
@@ -48,9 +56,17 @@ Image place(Image image, const PixelWindow& data, const PixelWindow& display) {
   return result;
 }
 
+void place_on_display(Picture& picture) {
+  const PictureSource& source = picture.source;
+  if (!is_inside(source.data, source.display)) picture.overscan = picture.image;
+  picture.image = place(std::move(picture.image), source.data, source.display);
+}
+
 std::vector<std::pair<std::string, std::string>> reading_facts(const PictureSource& source) {
   std::vector<std::pair<std::string, std::string>> facts;
   if (!source.layer.empty()) facts.emplace_back("Layer", printable(source.layer));
+  if (source.orientation != kUpright)
+    facts.emplace_back("Orientation", orientation_text(source.orientation));
   if (!source.icc_profile.empty())
     facts.emplace_back(
         "ICC profile",

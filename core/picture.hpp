@@ -25,6 +25,9 @@ bool are_apart(const PixelWindow& a, const PixelWindow& b);
 
 bool is_inside(const PixelWindow& inner, const PixelWindow& outer);
 
+/// Why the windows of a file cannot be read; empty if they can.
+std::string windows_problem(const PixelWindow& data, const PixelWindow& display);
+
 /// Moves `image` from the window `data` to `display`: cut off outside, 0 where there are no data.
 Image place(Image image, const PixelWindow& data, const PixelWindow& display);
 
@@ -46,7 +49,8 @@ struct PictureSource {
   std::string gain_map;      ///< "applied", "left out", "for SDR"; empty if there is none
   double samples = 0;        ///< of a pixel, if a renderer wrote them into the file; else 0
   PixelWindow data, display;
-  std::string alpha;                ///< name of the layer with its alpha; empty if there is none
+  int orientation = 1;  ///< of the stored rows and columns, undone (core/orientation.hpp)
+  std::string alpha;    ///< name of the layer with its alpha; empty if there is none
   std::vector<std::string> layers;  ///< all layers of the file, as layer_names()
   int mip_levels = 1;               ///< in the file; the first was read
 };
@@ -66,5 +70,8 @@ struct Picture {
   Image overscan;  ///< of the data window if that leaves the display window, else empty
   PictureSource source;
 };
+
+/// Moves the picture from its data window, which its image has, to its display window, and keeps what leaves that.
+void place_on_display(Picture& picture);
 
 }  // namespace lobelia

@@ -17,6 +17,7 @@
 #include "core/interrupt.hpp"
 #include "core/no_resources.hpp"
 #include "core/text.hpp"
+#include "core/tiff_directory.hpp"
 
 namespace lobelia {
 namespace {
@@ -58,6 +59,40 @@ bool is_tga_header(std::string_view head) {
          (byte(17) & 0xc0) == 0;
 }
 
+/// Calls `see` with the type and the value of each attribute of an EXR, in all parts. Returns false if one is longer than the
+/// file.
+template <class See>
+bool see_exr_attributes(std::string_view bytes, const See& see) {
+  if (bytes.size() < 8 || !bytes.starts_with("\x76\x2f\x31\x01")) return true;
+  constexpr char kManyParts = 0x10;
+  const bool many_parts = (bytes[5] & kManyParts) != 0;
+  std::size_t at = 8;
+  const auto text = [&]() -> std::string_view {
+    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
+    const std::string_view result = bytes.substr(at, end - at);
+    at = end + 1;
+    return result;
+  };
+  // Attributes are name, type, length, value. An empty name ends the header of a part, an empty header all headers.
+  for (bool first = true;;) {
+    const std::string_view name = text();
+    if (at >= bytes.size()) return true;
+    if (name.empty()) {
+      if (first || !many_parts) return true;
+      first = true;
+      continue;
+    }
+    first = false;
+    const std::string_view type = text();
+    if (at + 4 > bytes.size()) return true;
+    const std::uint64_t length = number_at(bytes, at, true);
+    at += 4;
+    if (length > bytes.size() - at) return false;
+    see(type, bytes.substr(at, length));
+    at += length;
+  }
+}
+
 constexpr std::string_view kBecameShorter = "it became shorter while it was read";
 
 Error not_readable(const std::filesystem::path& path, std::string_view why) {
@@ -93,33 +128,24 @@ std::string_view picture_format(std::string_view head, std::string_view footer,
 }
 
 bool is_exr_that_claims_too_much(std::string_view bytes) {
-  if (bytes.size() < 8 || !bytes.starts_with("\x76\x2f\x31\x01")) return false;
-  constexpr char kManyParts = 0x10;
-  const bool many_parts = (bytes[5] & kManyParts) != 0;
-  std::size_t at = 8;
-  const auto text = [&]() -> std::string_view {
-    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
-    const std::string_view result = bytes.substr(at, end - at);
-    at = end + 1;
-    return result;
-  };
-  // Attributes are name, type, length, value. An empty name ends the header of a part, an empty header all headers.
-  for (bool first = true;;) {
-    const std::string_view name = text();
-    if (at >= bytes.size()) return false;
-    if (name.empty()) {
-      if (first || !many_parts) return false;
-      first = true;
-      continue;
+  return !see_exr_attributes(bytes, [](std::string_view, std::string_view) {});
+}
+
+bool has_subsampled_channels(std::string_view bytes) {
+  bool found = false;
+  see_exr_attributes(bytes, [&](std::string_view type, std::string_view value) {
+    if (type != "chlist") return;
+    // A name, its end, the type, a flag, three bytes, and the sampling along x and y; an empty name ends the list.
+    constexpr std::size_t kAfterName = 16;
+    for (std::size_t at = 0; at < value.size() && value[at] != '\0';) {
+      const std::size_t end = value.find('\0', at);
+      if (end == value.npos || value.size() - end - 1 < kAfterName) return;
+      for (const std::size_t sampling : {end + 9, end + 13})
+        if (number_at(value, sampling, true) != 1) found = true;
+      at = end + 1 + kAfterName;
     }
-    first = false;
-    text();  // the type
-    if (at + 4 > bytes.size()) return false;
-    const std::uint64_t length = number_at(bytes, at, true);
-    at += 4;
-    if (length > bytes.size() - at) return true;
-    at += length;
-  }
+  });
+  return found;
 }
 
 bool is_heif_of_hdr(std::string_view bytes) {
@@ -147,31 +173,30 @@ bool is_cut_off(std::string_view bytes, std::string_view format) {
 }
 
 bool is_tiff_without_bits(std::string_view file) {
-  constexpr std::uint64_t kBitsPerSample = 258, kMaxEntries = 65535;
-  const bool little = file.starts_with("II");
-  if (file.size() < 8 || (!little && !file.starts_with("MM"))) return false;
-  const std::uint64_t version = number_at(file, 2, little, 2);
-  const bool big = version == 43;
-  if (version != 42 && !big) return false;
-  // A directory is a count, entries, and the offset of the next directory.
-  const std::size_t offset = big ? 8 : 4, count_size = big ? 8 : 2, entry_size = big ? 20 : 12;
-  std::uint64_t at = number_at(file, big ? 8 : 4, little, offset);
-  constexpr int kMaxPages = 1024;
-  for (int page = 0; at != 0 && page < kMaxPages; ++page) {
-    if (at > file.size() || file.size() - at < count_size) return false;
-    const std::uint64_t count = number_at(file, at, little, count_size);
-    if (count > kMaxEntries) return false;
-    at += count_size;
-    if (file.size() - at < count * entry_size) return false;
-    bool has_bits = false;
-    for (std::uint64_t i = 0; i < count; ++i)
-      has_bits |= number_at(file, at + i * entry_size, little, 2) == kBitsPerSample;
-    if (!has_bits) return true;
-    at += count * entry_size;
-    // The last directory may lack the offset.
-    at = file.size() - at < offset ? 0 : number_at(file, at, little, offset);
-  }
+  constexpr std::uint64_t kBitsPerSample = 258;
+  auto directory = TiffDirectory::first(file);
+  for (int page = 0; directory && page < kMaxTiffPages; ++page, directory = directory->next())
+    if (!directory->has(kBitsPerSample)) return true;
   return false;
+}
+
+std::vector<std::string_view> jpeg_segments(std::string_view jpeg, std::string_view beginning) {
+  std::vector<std::string_view> found;
+  std::size_t at = 2;
+  while (at + 4 <= jpeg.size() && jpeg[at] == '\xff') {
+    const int marker = static_cast<unsigned char>(jpeg[at + 1]);
+    constexpr int kFill = 0xff, kScan = 0xda;
+    if (marker == kFill) {
+      ++at;
+      continue;
+    }
+    const std::size_t length = number_at(jpeg, at + 2, false, 2);
+    if (marker == kScan || length < 2) break;
+    const std::string_view data = jpeg.substr(at + 4, length - 2);
+    if (data.starts_with(beginning)) found.push_back(data.substr(beginning.size()));
+    at += 2 + length;
+  }
+  return found;
 }
 
 PngColour png_colour(std::string_view file) {

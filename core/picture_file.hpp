@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/descriptor.hpp"
 #include "core/files.hpp"
@@ -33,6 +34,9 @@ std::string_view picture_format(std::string_view head, std::string_view footer,
 /// it reads.
 bool is_exr_that_claims_too_much(std::string_view bytes);
 
+/// Whether an EXR has a channel with fewer values than pixels.
+bool has_subsampled_channels(std::string_view bytes);
+
 /// Whether a JPEG lacks the marker that ends its last scan, or a DPX is shorter than its header says: there the libraries
 /// fill in what is missing and report nothing. `format` is OpenImageIO's name; false for any other format.
 bool is_cut_off(std::string_view bytes, std::string_view format);
@@ -43,6 +47,9 @@ bool is_heif_of_hdr(std::string_view bytes);
 /// Whether a page of a TIFF has no BitsPerSample. It is 1 by default (TIFF 6.0, page 29), but OpenImageIO 2.4 assumes 8
 /// and leaves the rest of each row uninitialised.
 bool is_tiff_without_bits(std::string_view bytes);
+
+/// The data of a JPEG's segments before its pixels, by the text that they begin with, which is cut off.
+std::vector<std::string_view> jpeg_segments(std::string_view jpeg, std::string_view beginning);
 
 /// What the chunks of a PNG say about its colours (PNG, third edition, 11.3.2). Ignored are chunks with a wrong checksum
 /// or length, a second chunk of a type, and chunks after the first pixels.

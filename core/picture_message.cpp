@@ -93,11 +93,11 @@ class Unpacker {
 template <class Through, class Source>
 void pass_source(Through& through, Source& source) {
   auto& [format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-         icc_profile, icc_is_srgb, gain_map, samples, data, display, alpha, layers, mip_levels] =
-      source;
+         icc_profile, icc_is_srgb, gain_map, samples, data, display, orientation, alpha, layers,
+         mip_levels] = source;
   through.fields(format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-                 icc_profile, icc_is_srgb, gain_map, samples, data, display, alpha, layers,
-                 mip_levels);
+                 icc_profile, icc_is_srgb, gain_map, samples, data, display, orientation, alpha,
+                 layers, mip_levels);
 }
 
 template <class Through, class Request>

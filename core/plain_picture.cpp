@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/orientation.hpp"
 #include "core/png_module.hpp"
 
 namespace lobelia {
@@ -57,7 +58,10 @@ std::optional<Picture> read_plain_picture(const PictureBytes& file, const std::s
       for (std::size_t i = 0; i < alpha.values().size(); ++i)
         band.image.values()[i] *= alpha.values()[i];
     }
-    if (!in_bands) return band;
+    if (!in_bands) {
+      turn_upright(band, stated_orientation(file.bytes, file.format));
+      return band;
+    }
     file.on_rows(band, y);
   }
   return Picture{{}, {}, source};

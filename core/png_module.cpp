@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/orientation.hpp"
 
 namespace lobelia {
 namespace {
@@ -199,6 +200,7 @@ std::unique_ptr<PlainFile> open_plain_png(const PictureBytes& file) {
 }
 
 std::optional<DisplayImage> read_codes(std::string_view bytes, int most_side) {
+  if (stated_orientation(bytes, "png") != kUpright) return std::nullopt;
   PlainPng png(bytes, most_side);
   return png.open() ? png.codes() : std::nullopt;
 }

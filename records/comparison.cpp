@@ -32,6 +32,10 @@ void define_comparison_tables(Tables& tables) {
     t.key("multipliedByAlpha", "the file's colours were not");
     t.key("dataWindow", "where the file has values");
     t.key("displayWindow", "the picture");
+    t.key("orientation",
+          "as TIFF and Exif number it, 2 to 8: what of the stored rows and columns was undone; "
+          "missing if nothing")
+        .at_least(2);
     t.key("chromaticities",
           "x, y of red, green, blue and white that the colours were converted from; missing if "
           "they are Rec. 709")

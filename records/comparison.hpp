@@ -25,6 +25,7 @@ struct PictureRead {
   std::string value_type, transfer;
   bool multiplied_by_alpha = false;
   Window data_window, display_window;
+  std::optional<int> orientation;
   std::vector<double> chromaticities;
   std::string icc_profile;
   std::optional<bool> icc_profile_is_srgb, icc_profile_applied;

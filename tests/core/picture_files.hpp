@@ -12,6 +12,7 @@
 #include <ImfStringAttribute.h>
 #include <half.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -81,6 +82,10 @@ inline std::string png_file(const Png& png) {
 
 // ---- TIFF 6.0, one strip, little-endian
 
+struct TiffEntry {
+  std::uint32_t tag, type, count, value;
+};
+
 struct Tiff {
   std::uint32_t width = 1, height = 1;
   int samples_per_pixel = 3, bits = 8;
@@ -90,25 +95,25 @@ struct Tiff {
   bool directory_first = false;
   bool says_bits = true;
   std::string profile = {};  ///< ICC
+  std::vector<TiffEntry> more = {};
+  std::uint32_t at = 0;  ///< where it is put as a further page
 };
 
 inline std::string tiff_file(const Tiff& tiff) {
-  struct Entry {
-    std::uint32_t tag, type, count, value;
-  };
   const auto samples = std::uint32_t(tiff.samples_per_pixel);
-  const std::uint32_t count = (tiff.says_bits ? 10u : 9u) + !tiff.profile.empty();
-  const std::uint32_t start = tiff.directory_first ? 8 + 2 + 12 * count + 4 : 8;
-  std::vector<Entry> entries = {{256, 4, 1, tiff.width},
-                                {257, 4, 1, tiff.height},
-                                {258, 3, 1, std::uint32_t(tiff.bits)},
-                                {259, 3, 1, 1},
-                                {262, 3, 1, std::uint32_t(tiff.photometric)},
-                                {273, 4, 1, start},
-                                {277, 3, 1, samples},
-                                {278, 4, 1, tiff.height},
-                                {279, 4, 1, std::uint32_t(tiff.samples.size())},
-                                {339, 3, 1, tiff.is_float ? 3u : 1u}};
+  const std::uint32_t count =
+      (tiff.says_bits ? 10u : 9u) + !tiff.profile.empty() + std::uint32_t(tiff.more.size());
+  const std::uint32_t start = tiff.at + (tiff.directory_first ? 8 + 2 + 12 * count + 4 : 8);
+  std::vector<TiffEntry> entries = {{256, 4, 1, tiff.width},
+                                    {257, 4, 1, tiff.height},
+                                    {258, 3, 1, std::uint32_t(tiff.bits)},
+                                    {259, 3, 1, 1},
+                                    {262, 3, 1, std::uint32_t(tiff.photometric)},
+                                    {273, 4, 1, start},
+                                    {277, 3, 1, samples},
+                                    {278, 4, 1, tiff.height},
+                                    {279, 4, 1, std::uint32_t(tiff.samples.size())},
+                                    {339, 3, 1, tiff.is_float ? 3u : 1u}};
   if (!tiff.says_bits) entries.erase(entries.begin() + 2);
   std::string padded = tiff.samples;
   if (!tiff.profile.empty()) {
@@ -118,12 +123,14 @@ inline std::string tiff_file(const Tiff& tiff) {
     padded += tiff.profile;
   }
   if (padded.size() % 2 != 0) padded += '\0';
+  entries.insert(entries.end(), tiff.more.begin(), tiff.more.end());
+  std::ranges::sort(entries, {}, &TiffEntry::tag);
   std::string directory = little_endian(std::uint32_t(entries.size()), 2);
-  for (const Entry& e : entries)
+  for (const TiffEntry& e : entries)
     directory += little_endian(e.tag, 2) + little_endian(e.type, 2) + little_endian(e.count, 4) +
                  little_endian(e.value, 4);
   directory += little_endian(0, 4);
-  const std::uint32_t at = tiff.directory_first ? 8 : std::uint32_t(8 + padded.size());
+  const std::uint32_t at = tiff.at + (tiff.directory_first ? 8 : std::uint32_t(8 + padded.size()));
   return std::string("II*\0", 4) + little_endian(at, 4) +
          (tiff.directory_first ? directory + padded : padded + directory);
 }
