@@ -40,6 +40,15 @@ std::int64_t count_nonfinite_pixels(const Image& image) {
   return count;
 }
 
+bool have_equal_values(const Image& a, const Image& b) {
+  bool equal = true;
+  in_parts(a.values().size(), 2 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    const auto part = [&](const Image& of) { return of.values().subspan(begin, end - begin); };
+    equal = equal && std::ranges::equal(part(a), part(b));
+  });
+  return equal;
+}
+
 void require_range(std::string_view what, double value, double min, double max) {
   if (!(value >= min && value <= max))
     throw Error(ExitCode::kUsage,
@@ -108,9 +117,17 @@ records::Named<double> measure_all(const MetricList& list, const MetricInput& in
                        [&](const Metric* metric) { return is_measurable(*metric, input); });
   const auto values = measure_metrics(measurable, input);
   records::Named<double> results;
-  for (std::size_t m = 0; m < values.size(); ++m)
-    for (std::size_t i = 0; i < values[m].size(); ++i)
-      results.emplace_back(measurable[m]->outputs[i].id, values[m][i]);
+  std::size_t measured = 0;
+  for (const Metric* metric : list) {
+    const bool is_measured = measured < measurable.size() && measurable[measured] == metric;
+    if (!is_measured && !is_best_by_equality(*metric, input)) continue;
+    for (std::size_t i = 0; i < metric->outputs.size(); ++i) {
+      const MetricOutput& output = metric->outputs[i];
+      if (is_measured || output.better != Better::kNeither)
+        results.emplace_back(output.id, is_measured ? values[measured][i] : output.best);
+    }
+    measured += is_measured;
+  }
   return results;
 }
 
@@ -354,8 +371,8 @@ void check_options(const ComparisonOptions& options) {
         (!options.tolerance || options.tolerance->edges.empty()))
       throw Error(ExitCode::kUsage,
                   "a limit on 'outliers.off_edge' needs a tolerance and a scene that has edges");
-    const double least = output->better == Better::kHigher ? -kLargest : 0;
-    require_range(fmt::format("the limit on {}", limit.metric), limit.limit, least, kLargest);
+    if (const std::string problem = limit_problem(*output, limit.limit); !problem.empty())
+      throw Error(ExitCode::kUsage, problem);
   };
   for (const std::string& name : options.metrics) check_name(name);
   for (const MetricLimit& limit : options.limits) check_limit(limit);
@@ -446,7 +463,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
                             options.mask,
                             options.noise ? &noise : nullptr,
                             highlight,
-                            tail_as_shown(a, b, viewing)};
+                            tail_as_shown(a, b, viewing),
+                            have_equal_values(a, b)};
     result.metrics = measure_all(list, input);
     result.not_measured = all_not_measured(list, input);
     if (options.noise) {
@@ -468,31 +486,6 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
         blind_limits(judge(options.limits, result, false), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
   return result;
-}
-
-DisplayImage difference_picture(const Image& a, const Image& b, double white_at) {
-  require_same_size(a, b);
-  DisplayImage picture{a.width(), a.height(), std::vector<std::uint8_t>(3 * a.pixel_count())};
-  const std::span<const float> va = a.values(), vb = b.values();
-  const auto show_pixel = [&](std::size_t i) {
-    bool finite = true;
-    for (std::size_t j = i; j < i + 3; ++j) {
-      const double difference = std::abs(double(va[j]) - double(vb[j]));
-      finite = finite && std::isfinite(difference);
-      if (finite && difference > 0)
-        picture.rgb[j] = difference < white_at
-                             ? std::uint8_t(std::lround(255 * difference / white_at))
-                             : std::uint8_t{255};
-    }
-    if (!finite) {
-      picture.rgb[i] = picture.rgb[i + 2] = 255;
-      picture.rgb[i + 1] = 0;
-    }
-  };
-  in_parts(a.pixel_count(), 6 * sizeof(float), [&](std::size_t begin, std::size_t end) {
-    for (; begin < end; ++begin) show_pixel(3 * begin);
-  });
-  return picture;
 }
 
 }  // namespace lobelia

@@ -267,7 +267,10 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
   return false;
 }
 
-std::string why_not_measured(const Metric& metric, const MetricInput& input) {
+namespace {
+
+/// Why the metric cannot be measured although no option is missing; otherwise empty.
+std::string obstacle(const Metric& metric, const MetricInput& input) {
   if (is_measurable(metric, input)) return "";
   const bool of_highlight =
       metric.region == Region::kHighlight || metric.needs == Needs::kHighlight;
@@ -286,6 +289,38 @@ std::string why_not_measured(const Metric& metric, const MetricInput& input) {
   if (one_window && side >= kSsimSide) return "no window lies around a pixel of the region";
   return fmt::format("it needs {} pixels a side, the pictures have {} x {}",
                      one_window ? kSsimSide : kMsSsimSide, input.a.width(), input.a.height());
+}
+
+}  // namespace
+
+bool is_best_by_equality(const Metric& metric, const MetricInput& input) {
+  // A mask without pixels is a mistake of whoever made it.
+  const bool by_mask = metric.region == Region::kMask || metric.region == Region::kOutside;
+  return input.equal && !(by_mask && !has_pixels(metric.region, input)) &&
+         !obstacle(metric, input).empty();
+}
+
+std::string why_not_measured(const Metric& metric, const MetricInput& input) {
+  return is_best_by_equality(metric, input) ? "" : obstacle(metric, input);
+}
+
+std::string limit_problem(const MetricOutput& output, double limit) {
+  const auto& [least_value, most] = output.range;
+  const double least = output.better == Better::kHigher ? least_value : 0;
+  if (limit >= least && limit <= most && std::isfinite(limit)) return "";
+  if (output.better == Better::kNearZero)
+    return fmt::format("a limit on {} is on its size, a finite number of at least 0, not {}",
+                       output.id, limit);
+  const std::string_view kind = output.unit == Unit::kShare ? "share" : "number";
+  const std::string range = std::isfinite(most)
+                                ? fmt::format("a {} from {} to {}", kind, least, most)
+                            : std::isfinite(least) ? fmt::format("a {} of at least {}", kind, least)
+                                                   : fmt::format("a finite {}", kind);
+  std::string problem = fmt::format("{} is {}, so {} is no limit on it", output.id, range, limit);
+  constexpr double kPercent = 100;
+  if (most == 1 && limit > most && limit <= kPercent)
+    problem += fmt::format("; for {0:g} % write {1:g}", limit, limit / kPercent);
+  return problem;
 }
 
 bool is_within(const MetricOutput& output, double value, double limit) {

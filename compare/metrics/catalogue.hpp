@@ -27,13 +27,19 @@ std::string id_in_region(const Metric& metric, const MetricOutput& output, Regio
 
 /// Whether the input has everything that the metric needs.
 bool is_measurable(const Metric& metric, const MetricInput& input);
-/// Why a metric cannot be measured although no option is missing; otherwise empty.
+/// Whether a metric that cannot be measured has its best value all the same, because the pictures are equal.
+bool is_best_by_equality(const Metric& metric, const MetricInput& input);
+/// Why a metric has no value although no option is missing; otherwise empty.
 std::string why_not_measured(const Metric& metric, const MetricInput& input);
 
 /// Whether a name of --metrics means the metric: "all"; the id of an output, its beginning up to a dot or an equals sign
 /// ("flip.ldr", "relmse") or a family ("colour"), each of the whole picture; one of these with a region ("rmse.mask");
 /// or a region ("highlight").
 bool is_named(const Metric& metric, std::string_view name);
+
+/// Why no limit on the output can have this value, with what to write instead; empty if one can. A signed error takes a limit
+/// on its size.
+std::string limit_problem(const MetricOutput& output, double limit);
 
 /// Whether a value passes a limit; false if either is NaN.
 bool is_within(const MetricOutput& output, double value, double limit);

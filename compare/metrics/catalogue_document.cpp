@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "compare/compare.hpp"
 #include "compare/disagreement.hpp"
 #include "compare/highlight_region.hpp"
@@ -10,6 +12,14 @@ namespace {
 
 // In the order of the enumerators.
 constexpr std::string_view kBetter[] = {"lower", "nearer to 0", "higher", "(a fact)"};
+
+std::string range_text(const MetricOutput& output) {
+  const auto& [least, most] = output.range;
+  if (output.better == Better::kNeither) return "";
+  if (!std::isfinite(least)) return "any";
+  return std::isfinite(most) ? fmt::format("{} to {}", least, most)
+                             : fmt::format("{} and more", least);
+}
 
 std::string needs_text(Needs needs) {
   switch (needs) {
@@ -35,21 +45,22 @@ std::string metrics_document() {
       "B is the reference. Each metric's file in `compare/metrics/` has its formula, constants and borders, and\n"
       "the tool that it agrees with.\n"
       "\n"
-      "| id | family | better | regions | needs | what it is | source |\n"
-      "|---|---|---|---|---|---|---|\n";
+      "| id | family | better | range | regions | needs | what it is | source |\n"
+      "|---|---|---|---|---|---|---|---|\n";
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
       if (metric->region == Region::kWhole)
-        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", output.id,
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", output.id,
                             family_name(metric->family), kBetter[std::size_t(output.better)],
-                            metric->in_regions ? "yes" : "",
+                            range_text(output), metric->in_regions ? "yes" : "",
                             metric->on_request ? "a request" : needs_text(metric->needs),
                             output.meaning, metric->source);
   text += fmt::format(
       "\n"
       "**Better** says what a limit means: `--fail rmse=0.01` passes up to 0.01, `--fail drift=0.01` from -0.01\n"
-      "to 0.01, `--fail ssim=0.99` from 0.99 up. A value that was not measured, or is NaN, passes no limit. Equal\n"
-      "pictures have 0, or 1 for SSIM, or an infinite `psnr`.\n"
+      "to 0.01, `--fail ssim=0.99` from 0.99 up. A limit beyond the range is an error. A value that was not\n"
+      "measured, or is NaN, passes no limit. Equal pictures have 0, or 1 for SSIM, or an infinite `psnr`, also\n"
+      "where a metric could not be measured of them.\n"
       "\n"
       "**Families.** *Radiance* metrics use scene-linear values, neither exposed nor clipped. *Colour* and\n"
       "*structure* use the picture as shown: exposed, clipped, sRGB's primaries. *Visibility* also uses\n"

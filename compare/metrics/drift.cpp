@@ -10,10 +10,10 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kDriftOutputs[] = {{"drift", "Mean difference, with its sign",
-                                           Unit::kRadiance, Better::kNearZero, false,
-                                           "signed mean of a - b over all RGB values",
-                                           "Positive where ours is brighter; noise cancels here."}};
+constexpr MetricOutput kDriftOutputs[] = {
+    {"drift", "Mean difference, with its sign", Unit::kRadiance, Better::kNearZero, false,
+     "signed mean of a - b over all RGB values",
+     "Positive where ours is brighter; noise cancels here.", 0, false, kSignedRange}};
 
 void measure_drift(const MetricInput& input, std::span<double> values) {
   const auto errors = value_errors(input);

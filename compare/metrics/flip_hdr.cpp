@@ -26,9 +26,10 @@ namespace {
 
 constexpr MetricOutput kFlipHdrOutputs[] = {
     {"flip.hdr.mean", "HDR-FLIP, mean", Unit::kPlain, Better::kLower, true, "HDR-FLIP, mean",
-     "The same at the exposure that shows each pixel’s difference best."},
+     "The same at the exposure that shows each pixel’s difference best.", 0, false, kUnitRange},
     {"flip.hdr.max", "HDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
-     "HDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
+     "HDR-FLIP, the largest of all pixels", "The pixel where a person would notice most.", 0, false,
+     kUnitRange}};
 
 /// Spaced in float32, like the tool's.
 std::vector<float> exposure_stops(const HdrExposures& range) {

@@ -28,9 +28,11 @@ namespace {
 
 constexpr MetricOutput kFlipLdrOutputs[] = {
     {"flip.ldr.mean", "LDR-FLIP, mean", Unit::kPlain, Better::kLower, true, "LDR-FLIP, mean",
-     "What a person notices on flipping between the two pictures: 0 nothing, 1 everything."},
+     "What a person notices on flipping between the two pictures: 0 nothing, 1 everything.", 0,
+     false, kUnitRange},
     {"flip.ldr.max", "LDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
-     "LDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
+     "LDR-FLIP, the largest of all pixels", "The pixel where a person would notice most.", 0, false,
+     kUnitRange}};
 
 void measure_flip_ldr(const MetricInput& input, std::span<double> values) {
   const auto map = shared(input, "flip.ldr", [&] {

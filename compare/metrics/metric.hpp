@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -118,6 +119,7 @@ struct MetricInput {
   /// By pixel, not 0 in the highlight, before it is grown; empty if it was not asked for.
   std::span<const std::uint8_t> highlight = {};
   std::optional<ShownPair> shown_tail = {};  ///< at the second exposure, if there is one
+  bool equal = false;                        ///< every value of a is b's
   /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metrics().
   std::span<const std::uint8_t> region = {};
   double threshold = 0;  ///< the metric's own. Set by measure_metrics().
@@ -178,6 +180,14 @@ enum class Needs : std::uint8_t {
 /// The side of a window of SSIM, and the least side that still holds one after MS-SSIM's halvings.
 inline constexpr int kSsimSide = 11, kMsSsimSide = 176;
 
+/// The values that an output which takes a limit can have, whatever the pictures.
+struct ValueRange {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+};
+inline constexpr ValueRange kSignedRange{-std::numeric_limits<double>::infinity()};
+inline constexpr ValueRange kRatioRange{-1};  ///< of a / b - 1
+inline constexpr ValueRange kUnitRange{0, 1};
+
 struct MetricOutput {
   std::string_view id;     ///< "ciede2000.p95": key in the record, name on the command line
   std::string_view title;  ///< "CIEDE2000, 95th percentile"; empty: the id is shown
@@ -188,6 +198,7 @@ struct MetricOutput {
   std::string_view explanation = {};  ///< a sentence for readers of a page
   double best = 0;                    ///< the value of equal pictures, unless it is a fact
   bool square = false;  ///< its distance from the best grows as the square of a difference
+  ValueRange range = {};
 };
 
 struct Metric {

@@ -29,7 +29,7 @@ static_assert(kSsimSide << (kScales - 1) == kMsSsimSide);
 constexpr MetricOutput kMsSsimOutputs[] = {
     {"ms_ssim", "MS-SSIM", Unit::kPlain, Better::kHigher, true,
      "structural similarity at five scales",
-     "The same at five scales, the coarse ones as from farther away.", 1, true}};
+     "The same at five scales, the coarse ones as from farther away.", 1, true, kUnitRange}};
 
 void measure_ms_ssim(const MetricInput& input, std::span<double> values) {
   auto scale = shown_ssim(input);

@@ -27,7 +27,7 @@ using OverOutputs = std::array<MetricOutput, 2>;
 
 constexpr OverOutputs over_outputs(std::string_view share_id, std::string_view pixels_id,
                                    std::string_view meaning) {
-  return {{{share_id, "", Unit::kShare, Better::kLower, true, meaning},
+  return {{{share_id, "", Unit::kShare, Better::kLower, true, meaning, {}, 0, false, kUnitRange},
            {pixels_id, "", Unit::kCount, Better::kLower, true, "the number of these pixels"}}};
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr MetricOutput kPsnrOutputs[] = {
     {"psnr", "Peak signal-to-noise ratio", Unit::kPlain, Better::kHigher, false,
      "reference's peak over rmse, in decibels",
-     "In decibels, of the reference’s peak; more is better.", kInfinity}};
+     "In decibels, of the reference’s peak; more is better.", kInfinity, false, kSignedRange}};
 
 void measure_psnr(const MetricInput& input, std::span<double> values) {
   const auto errors = value_errors(input);

@@ -21,8 +21,16 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kSsimOutputs[] = {
-    {"ssim", "SSIM", Unit::kPlain, Better::kHigher, true, "structural similarity of the luma, mean",
-     "How alike the structure is, 1 for equal pictures; more is better.", 1, true}};
+    {"ssim",
+     "SSIM",
+     Unit::kPlain,
+     Better::kHigher,
+     true,
+     "structural similarity of the luma, mean",
+     "How alike the structure is, 1 for equal pictures; more is better.",
+     1,
+     true,
+     {-1, 1}}};
 
 void measure_ssim(const MetricInput& input, std::span<double> values) {
   values[0] = means_of(*shown_ssim(input), input).similarity;

@@ -399,15 +399,26 @@ TEST_F(CompareFolders, NameTheFilesWhoseSizesDiffer) {
 }
 
 TEST_F(CompareFolders, OfWhichNoReferenceHasARangeOfExposuresAreMeasuredWithoutHdrFlip) {
-  for (const char* black : {"a/x.exr", "b/x.exr"}) write_exr(path(black), Image(20, 20), {});
+  write_exr(path("b/x.exr"), Image(20, 20), {});
+  Image below = Image(20, 20);
+  below.pixel(3, 4)[0] = -0.01f;
+  write_exr(path("a/x.exr"), below, {});
   const auto result = compare({"a", "b", "--exposures", "auto", "--json", "set.json"});
-  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_EQ(result.exit_code, 1) << result.output_tail;
   EXPECT_THAT(result.output_tail,
               HasSubstr("flip.hdr.mean             not measured in 1 pairs: b/x.exr: "));
   EXPECT_TRUE(json("set.json")["pairs"][0]["comparison"]["metrics"].contains("rmse"));
   const auto asked = compare({"a", "b", "--exposures", "auto", "--fail", "flip.hdr.mean=1"});
   EXPECT_EQ(asked.exit_code, 1) << "a limit on what was not measured does not pass";
   EXPECT_THAT(asked.output_tail, HasSubstr("flip.hdr.mean was not measured (b/x.exr: "));
+}
+
+TEST_F(CompareFolders, OfEqualBlackPicturesPassEveryLimit) {
+  for (const char* black : {"a/x.exr", "b/x.exr"}) write_exr(path(black), Image(20, 20), {});
+  const auto result = compare({"a", "b", "--exposures", "auto", "--fail", "flip.hdr.mean=0",
+                               "--fail", "ms_ssim=1", "--json", "set.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_EQ(json("set.json")["pairs"][0]["comparison"]["metrics"]["flip.hdr.mean"], 0);
 }
 
 }  // namespace

@@ -147,6 +147,64 @@ TEST(MetricLaws, APictureComparedWithItselfHasTheBestValue) {
   EXPECT_GT(checked, 60);
 }
 
+TEST(MetricLaws, AValueLiesInTheRangeOfItsOutput) {
+  int checked = 0;
+  const auto expect_in_range = [&](const Image& a, const Image& b) {
+    for (const Metric* metric : metrics()) {
+      const std::vector<double> values = measure(*metric, a, b);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!is_judged(metric->outputs[i])) continue;
+        const auto& [id, range] = std::pair(metric->outputs[i].id, metric->outputs[i].range);
+        EXPECT_GE(values[i], range.least) << id;
+        // A mean of float sums may be a rounding above the largest value.
+        EXPECT_LE(values[i], range.most * (1 + 1e-12)) << id;
+        ++checked;
+      }
+    }
+  };
+  const Image black = fixtures::flat(200, 180, 0, 0, 0), white = fixtures::flat(200, 180, 1, 1, 1),
+              dots = fixtures::noise(200, 180, 9, 1e6f);
+  for (const Image* one : {&black, &white, &dots})
+    for (const Image* other : {&black, &white, &dots}) expect_in_range(*one, *other);
+  for (const auto& [a, b] : pairs()) expect_in_range(a, b), expect_in_range(b, a);
+  EXPECT_GT(checked, 500);
+}
+
+TEST(MetricLaws, TheBestValueAndBothEndsOfARangeAreLimits) {
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs) {
+      if (!is_judged(output)) continue;
+      const auto is_limit = [&](double limit) { return limit_problem(output, limit).empty(); };
+      const auto& [least, most] = output.range;
+      const bool is_higher = output.better == Better::kHigher;
+      EXPECT_EQ(is_limit(output.best), std::isfinite(output.best)) << output.id;
+      EXPECT_EQ(is_limit(most), std::isfinite(most)) << output.id;
+      EXPECT_EQ(is_limit(is_higher ? least : 0), !is_higher || std::isfinite(least)) << output.id;
+      EXPECT_EQ(is_limit(1.001 * std::min(most, 1e9)), !std::isfinite(most)) << output.id;
+      EXPECT_EQ(is_limit(is_higher ? least - 0.001 : -0.001), false) << output.id;
+      EXPECT_FALSE(is_limit(std::nan(""))) << output.id;
+    }
+}
+
+TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
+  const auto problem = [](const char* id, double limit) {
+    return limit_problem(*find_metric_output(id), limit);
+  };
+  EXPECT_EQ(
+      problem("share_over.abs=0.004", 10),
+      "share_over.abs=0.004 is a share from 0 to 1, so 10 is no limit on it; for 10 % write 0.1");
+  EXPECT_EQ(problem("ssim", 99),
+            "ssim is a number from -1 to 1, so 99 is no limit on it; for 99 % write 0.99");
+  EXPECT_EQ(problem("flip.ldr.mean", 300),
+            "flip.ldr.mean is a number from 0 to 1, so 300 is no limit on it");
+  EXPECT_EQ(problem("code.max", 256),
+            "code.max is a number from 0 to 255, so 256 is no limit on it");
+  EXPECT_EQ(problem("rmse", -1), "rmse is a number of at least 0, so -1 is no limit on it");
+  EXPECT_EQ(problem("energy.highlight", -0.5),
+            "a limit on energy.highlight is on its size, a finite number of at least 0, not -0.5");
+  EXPECT_EQ(problem("max_rel_peak", 5), "") << "five times the peak is possible";
+}
+
 TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
   // Of each metric at least one output sees the difference of each pair; none is better or NaN.
   for (const auto& [a, b] : pairs())
