@@ -79,6 +79,18 @@ void print_exposures(const Viewing& viewing) {
         viewing.exposure_stops, *viewing.tail_stops);
 }
 
+/// Noise with heavy tails, by picture.
+void print_noise(const Comparison& comparison) {
+  if (!comparison.uncertainty) return;
+  for (const auto& [name, noise] :
+       {std::pair('a', &comparison.uncertainty->a), {'b', &comparison.uncertainty->b}})
+    if (*noise && (*noise)->heavy_tails.value_or(false))
+      fmt::print(
+          "  {}'s noise has heavy tails: in {:.2g} % of its pixels, fireflies err over {:g} times as "
+          "much as all around them\n\n",
+          name, 100 * (*noise)->fireflies.value_or(0), kFireflyFactor);
+}
+
 void print_parts(const Comparison& comparison) {
   const auto print = [](std::string_view what, std::span<const std::string> of,
                         std::int64_t pixels) {
@@ -189,6 +201,7 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
   if (const std::string sentence = highlight_sentence(comparison); !sentence.empty())
     fmt::print("  {}\n\n", sentence);
   print_exposures(comparison.viewing);
+  print_noise(comparison);
   print_metric_lines(comparison);
   fmt::print("\n");
   if (comparison.verdict != Verdict::kNonFinite) {

@@ -10,6 +10,7 @@
 
 #include "compare/disagreement.hpp"
 #include "compare/highlight_region.hpp"
+#include "compare/judge_limits.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
 #include "compare/uncertainty/critical.hpp"
@@ -24,9 +25,6 @@ namespace {
 
 /// In ComparisonOptions::metrics: all that need not be requested.
 constexpr std::string_view kDefaultMetrics = "default";
-
-/// Pixels that noise leaves undecided. Over its limit this count is open, never broken.
-constexpr char kOpenPixels[] = "z.open";
 
 std::int64_t count_nonfinite_pixels(const Image& image) {
   const std::span<const float> values = image.values();
@@ -142,21 +140,25 @@ std::vector<NotMeasured> all_not_measured(const MetricList& list, const MetricIn
 
 NoiseOfPair noise_of_pair(const ComparisonOptions& options) {
   if (!options.noise) return {};
-  const auto& [a, b, significance, bootstraps, seed] = *options.noise;
-  return {a ? &*a : nullptr, b ? &*b : nullptr, significance};
+  const NoiseOptions& noise = *options.noise;
+  return {noise.a ? &*noise.a : nullptr, noise.b ? &*noise.b : nullptr,
+          significance_of_each(options)};
 }
 
-records::Uncertainty uncertainty_of(const MetricInput& input, const NoiseOptions& noise) {
+records::Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOptions& options) {
+  const NoiseOptions& noise = *options.noise;
   const auto in_short = [](const PictureNoise* one) -> std::optional<records::PictureNoise> {
     if (!one) return std::nullopt;
-    return records::PictureNoise{one->freedom, one->shared, one->layer};
+    return records::PictureNoise{one->freedom, one->shared, one->layer, one->fireflies,
+                                 one->fireflies >= kHeavyTails};
   };
   const double tests = count_of_tests(input.a.width(), input.a.height());
   return {.a = in_short(input.noise->a),
           .b = in_short(input.noise->b),
           .significance = noise.significance,
+          .judges = count_of_judges(options),
           .tests = tests,
-          .each = sidak(noise.significance, tests),
+          .each = sidak(input.noise->significance, tests),
           .bootstraps = noise.bootstraps,
           .seed = noise.seed};
 }
@@ -165,6 +167,11 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const NoiseOptions
 // lie. The limit holds if it holds for the whole bar, is broken if it is broken for the whole bar, and is otherwise
 // open. Pictures are different if a limit is broken, the same if all hold, and otherwise undecided: neither a pass
 // nor a difference, more samples are needed.
+//
+// One broken limit of many makes a difference, so the end of a bar near equal pictures is that of a family: all limits
+// together are beyond it by chance in as many pairs as the significance says. The same needs every limit, so each is
+// judged by its own far end: R. L. Berger, "Multiparameter Hypothesis Testing and Acceptance Sampling", Technometrics
+// 24, 1982.
 
 /// The limits that the options ask for:
 ///   limits        these limits;
@@ -202,64 +209,6 @@ std::vector<MetricLimit> requested_limits(const ComparisonOptions& options,
   if (options.noise && (options.tolerance || by_default)) limits.push_back({"z.regions", 0});
   if (options.noise && by_tolerance) limits.push_back({kOpenPixels, allowed});
   return limits;
-}
-
-/// How a limit stands by its error bar; without one by its value. A value that was not measured is open.
-std::string_view standing_of(const MetricLimit& limit, double value, const ErrorBar* bar) {
-  if (limit.metric == kOpenPixels) return value <= limit.limit ? Standing::kHolds : Standing::kOpen;
-  const MetricOutput* output = find_metric_output(limit.metric);
-  const double low = bar ? bar->low : value, high = bar ? bar->high : value;
-  if (!output || std::isnan(value) || std::isnan(low) || std::isnan(high)) return Standing::kOpen;
-  const bool low_holds = is_within(*output, low, limit.limit);
-  const bool high_holds = is_within(*output, high, limit.limit);
-  if (low_holds && high_holds) return Standing::kHolds;
-  // A signed value may be 0 between two ends that are both too far from 0.
-  const bool around_zero = output->better == Better::kNearZero && low < 0 && high > 0;
-  return low_holds || high_holds || around_zero ? Standing::kOpen : Standing::kBroken;
-}
-
-/// The factor of extra samples that would decide an open limit, roughly: bar and noise floor shrink with its root, and
-/// the figure with the floor. Infinite if unknown or over a million.
-double more_samples(const MetricLimit& limit, double value, const ErrorBar* bar) {
-  const MetricOutput* output = find_metric_output(limit.metric);
-  if (!output || !bar) return kInfinity;
-  const bool is_signed = output->better == Better::kNearZero;
-  const double now = as_distance(*output, value), floor = as_distance(*output, bar->noise_floor),
-               floor_most = as_distance(*output, bar->noise_floor_most),
-               spread =
-                   std::max(as_distance(*output, bar->low), as_distance(*output, bar->high)) - now;
-  // As for rmse: squares add up.
-  const double endless = is_signed ? now : std::sqrt(std::max(0.0, now * now - floor * floor));
-  constexpr double kStep = 1.1, kMost = 1e6;
-  for (double times = kStep; times < kMost; times *= kStep) {
-    const double shrunk = 1 / std::sqrt(times);
-    const double then = is_signed ? now : std::hypot(endless, floor * shrunk);
-    const double near =
-        is_signed ? then - spread * shrunk : std::max(0.0, then - floor_most * shrunk);
-    ErrorBar bar_then;
-    bar_then.low = from_distance(*output, near);
-    bar_then.high = from_distance(*output, then + spread * shrunk);
-    if (standing_of(limit, value, &bar_then) != Standing::kOpen) return times;
-  }
-  return kInfinity;
-}
-
-std::vector<LimitResult> judge(std::span<const MetricLimit> limits, const Comparison& measured,
-                               bool noisy) {
-  std::vector<LimitResult> results;
-  for (const auto& [metric, limit] : limits) {
-    const double value = measured.value(metric);
-    const MetricOutput* output = find_metric_output(metric);
-    LimitResult& result = results.emplace_back(
-        LimitResult{metric, limit, value, output && is_within(*output, value, limit), {}, {}});
-    if (!noisy) continue;
-    const ErrorBar* bar = records::find(measured.error_bars, metric);
-    result.standing = standing_of({metric, limit}, value, bar);
-    result.pass = result.standing == Standing::kHolds;
-    if (result.standing == Standing::kOpen)
-      result.more_samples = more_samples({metric, limit}, value, bar);
-  }
-  return results;
 }
 
 /// Whether a default limit on the metric stands, as none was given.
@@ -435,6 +384,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   oneapi::tbb::parallel_invoke([&] { result.nonfinite.a = count_nonfinite_pixels(a); },
                                [&] { result.nonfinite.b = count_nonfinite_pixels(b); });
   const bool finite = result.nonfinite.a == 0 && result.nonfinite.b == 0;
+  ErrorBars bars_of_limits;
   if (!finite) {
     result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};
   } else {
@@ -468,22 +418,24 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     result.metrics = measure_all(list, input);
     result.not_measured = all_not_measured(list, input);
     if (options.noise) {
-      result.uncertainty = uncertainty_of(input, *options.noise);
-      result.error_bars =
-          error_bars(list, input, viewing, options.noise->bootstraps, options.noise->seed);
+      result.uncertainty = uncertainty_of(input, options);
+      const NoisyFigures figures(
+          list, input, viewing, {options.noise->bootstraps, options.noise->seed, options.surfaces});
+      result.error_bars = figures.bars();
+      bars_of_limits = figures.bars_of_limits(significance_of_each(options));
     }
   }
   const bool noisy = options.noise.has_value();
-  result.limits = judge(requested_limits(options, result), result, noisy);
+  result.limits =
+      judge(requested_limits(options, result), result, noisy ? &bars_of_limits : nullptr);
   if (noisy && (!options.limits.empty() || options.tolerance))
     std::erase_if(result.limits, [&](const LimitResult& limit) {
       return limit.standing == Standing::kOpen && is_by_default(limit.metric, options);
     });
-  result.warnings = judge(options.warnings, result, false);
+  result.warnings = judge(options.warnings, result);
   result.disagreement = disagreements(result.limits);
   if (result.highlight_pixels.value_or(0) > 0)
-    result.blind_limits =
-        blind_limits(judge(options.limits, result, false), result.highlight_share);
+    result.blind_limits = blind_limits(judge(options.limits, result), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
   return result;
 }

@@ -14,9 +14,9 @@ struct MetricLimit {
 /// The known noise of the pictures, and how to judge by it.
 struct NoiseOptions {
   std::optional<PictureNoise> a = {}, b = {};  ///< at least one of them
-  double significance =
-      0.01;                ///< chance of finding a difference beyond the noise where there is none
-  int bootstraps = 16;     ///< pairs of pictures for the error bars, see error_bars()
+  /// Chance that pictures of one expectation are called different, by whichever of the limits.
+  double significance = 0.01;
+  int bootstraps = 32;     ///< pairs of pictures for the error bars, see DrawOptions
   std::uint64_t seed = 0;  ///< of their noise
 };
 
@@ -70,7 +70,7 @@ enum class Verdict : std::uint8_t {
   kNonFinite,  ///< a NaN or an infinity in one of them: nothing was measured, nothing can pass
   // For pictures with noise:
   kSame,       ///< every limit holds for its whole error bar
-  kDifferent,  ///< a limit is broken for its whole error bar
+  kDifferent,  ///< a limit is broken for its whole error bar, one that holds for all limits together
   kUndecided,  ///< the noise is too strong to decide: no pass
 };
 constexpr std::string_view verdict_name(Verdict verdict) {

@@ -113,9 +113,14 @@ void define_comparison_tables(Tables& tables) {
     t.key("freedom", "degrees of freedom of each value's error").at_least(1).may_be_nonfinite();
     t.key("shared", "its pixels err together");
     t.key("layer", "of the picture's own file, that says it").if_any();
+    t.key("fireflies", "share of pixels that err more than six times as much as all around them")
+        .between(0, 1);
+    t.key("heavyTails", "there are so many fireflies that the noise is far from normal");
   });
   tables.define<Uncertainty>("How the noise of the pictures was taken into account.", [](auto& t) {
-    t.key("significance").between(0, 1);
+    t.key("significance", "chance that equal expectations are called different").between(0, 1);
+    t.key("judges", "limits that share it; all tests of single values and regions are one")
+        .at_least(1);
     t.key("tests", "values and regions that were tested").at_least(0);
     t.key("each", "significance level of one test").between(0, 1);
     t.key("bootstraps").at_least(4);

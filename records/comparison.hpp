@@ -96,11 +96,15 @@ struct PictureNoise {
   double freedom = 0;
   bool shared = false;
   std::string layer;
+  std::optional<double> fireflies;
+  std::optional<bool> heavy_tails;
 };
 
 struct Uncertainty {
   std::optional<PictureNoise> a, b;
-  double significance = 0, tests = 0, each = 0;
+  double significance = 0;
+  std::optional<int> judges;
+  double tests = 0, each = 0;
   int bootstraps = 0;
   std::uint64_t seed = 0;
 };

@@ -1,8 +1,9 @@
 // The figures that describe a highlight: its energy, brightness and width against the reference, and its shift.
 //
 // Source:       ours.
-// Formula:      of each picture L = max(0, (R + G + B) / 3 - kHighlightShare * its largest) over the pixels of the
-//               highlight. What is less bright does not count, so that a shift moves nothing out of the sums.
+// Formula:      of each picture L = max(0, M - kHighlightShare * P) over the pixels of the highlight; M is (R + G + B) / 3,
+//               P the largest of min(M, median of M over the 3 x 3 pixels around). What is less bright does not count, so
+//               that a shift moves nothing out of the sums. The median keeps noise and a firefly from raising P.
 //               energy = sum L. area = (sum L)^2 / sum L^2, the area of a flat disc with the same two sums: of
 //               cos^n it is in proportion to 1 / n. brightness = sum L^2 / sum L, so energy = area * brightness.
 //               Each is given as a / b - 1, width as the root of the ratio of areas. shift is the distance of the
@@ -12,6 +13,7 @@
 //               a thousand, which no single pixel shows, and rounding and noise hardly move them.
 // Degenerate:   a highlight that only one picture has: its ratio is -1 or infinite, its shift infinite.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compare/highlight_region.hpp"
@@ -44,30 +46,43 @@ struct Sums {
   double brightness() const { return light > 0 ? squares / light : 0; }
 };
 
+double mean_of(std::span<const float, 3> rgb) {
+  return (double(rgb[0]) + double(rgb[1]) + double(rgb[2])) / 3;
+}
+
+/// The median of the means of the pixels around, those in the picture.
+double median_around(const Image& image, int x, int y) {
+  std::array<double, 9> values{};
+  std::size_t count = 0;
+  for (int j = std::max(0, y - 1); j <= std::min(image.height() - 1, y + 1); ++j)
+    for (int i = std::max(0, x - 1); i <= std::min(image.width() - 1, x + 1); ++i)
+      values[count++] = mean_of(image.pixel(i, j));
+  const auto middle = values.begin() + std::ptrdiff_t(count / 2);
+  std::nth_element(values.begin(), middle, values.begin() + std::ptrdiff_t(count));
+  return *middle;
+}
+
 Sums sums_over(const Image& image, std::span<const std::uint8_t> highlight) {
-  const std::span<const float> values = image.values();
-  const auto mean_at = [&](std::size_t pixel) {
-    return (double(values[3 * pixel]) + double(values[3 * pixel + 1]) +
-            double(values[3 * pixel + 2])) /
-           3;
-  };
+  const auto width = std::size_t(image.width());
   const auto for_each_pixel = [&](const auto& visit) {
     in_parts(highlight.size(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
       for (std::size_t pixel = begin; pixel < end; ++pixel)
-        if (highlight[pixel] != 0) visit(pixel);
+        if (highlight[pixel] != 0) visit(int(pixel % width), int(pixel / width));
     });
   };
-  double largest = 0;
-  for_each_pixel([&](std::size_t pixel) { largest = std::max(largest, mean_at(pixel)); });
+  double peak = 0;
+  for_each_pixel([&](int x, int y) {
+    const double own = mean_of(image.pixel(x, y));
+    if (own > peak) peak = std::max(peak, std::min(own, median_around(image, x, y)));
+  });
   Sums sums;
-  const auto width = std::size_t(image.width());
-  for_each_pixel([&](std::size_t pixel) {
-    const double light = mean_at(pixel) - kHighlightShare * largest;
+  for_each_pixel([&](int x, int y) {
+    const double light = mean_of(image.pixel(x, y)) - kHighlightShare * peak;
     if (!(light > 0)) return;
     sums.light += light;
     sums.squares += light * light;
-    sums.x += light * double(pixel % width);
-    sums.y += light * double(pixel / width);
+    sums.x += light * x;
+    sums.y += light * y;
   });
   return sums;
 }

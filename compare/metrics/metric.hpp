@@ -199,6 +199,8 @@ struct MetricOutput {
   double best = 0;                    ///< the value of equal pictures, unless it is a fact
   bool square = false;  ///< its distance from the best grows as the square of a difference
   ValueRange range = {};
+  /// In proportion to the largest |a - b| of single values: its noise is that of one value.
+  bool is_largest_difference = false;
 };
 
 struct Metric {

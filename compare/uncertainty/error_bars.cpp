@@ -1,14 +1,13 @@
 #include "compare/uncertainty/error_bars.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/students_t.hpp>
+#include <map>
 
+#include "compare/highlight_region.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/uncertainty/z_test.hpp"
+#include "compare/uncertainty/critical.hpp"
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
@@ -34,15 +33,22 @@ class Spread {
   double first_ = 0, mean_ = 0, squares_ = 0;
 };
 
+struct Spreads {
+  Spread value;             ///< of noisier pictures, as in the record
+  Spread noisier, nothing;  ///< distances of noisier pictures, and of noise alone
+};
+
+/// What the noise of a region tells of itself.
+struct RegionNoise {
+  double freedom = kInfinity;    ///< Satterthwaite's, of the sum over its pixels
+  double floor_uncertainty = 0;  ///< variance of a noise floor, in units of the figure's
+};
+
 struct Figure {
+  const Metric* metric;
   const MetricOutput* output;
-  double distance;  ///< of the pictures without additional noise
-  struct Spreads {
-    Spread value;             ///< of noisier pictures, as in the record
-    Spread noisier, nothing;  ///< distances of noisier pictures, and of noise alone
-  };
-  std::array<Spreads, 2>
-      spreads;  ///< if values err independently, and if all values of a picture err together
+  double distance;               ///< of the pictures without additional noise
+  std::vector<Spreads> spreads;  ///< by what_may_err_together()
 };
 
 template <class Visit>
@@ -55,64 +61,205 @@ void measure_each(std::span<const Metric* const> list, const MetricInput& input,
   for (std::size_t m = 0; m < values.size(); ++m)
     for (std::size_t i = 0; i < values[m].size(); ++i)
       if (const MetricOutput& output = measurable[m]->outputs[i]; output.better != Better::kNeither)
-        visit(output, values[m][i]);
+        visit(*measurable[m], output, values[m][i]);
 }
 
-/// With `together`, all values of a picture with shared noise get the same multiple of their errors.
-Image with_noise(const Image& image, const PictureNoise* noise, std::uint64_t stream,
-                 bool together) {
-  Image result = image;
-  if (!noise) return result;
-  constexpr std::size_t kValuesPerTask = 1 << 14;
-  const double one = gaussian(stream, ~std::uint64_t{0});
-  together = together && noise->shared;
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<std::size_t>(0, result.values().size(), kValuesPerTask),
-      [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const double error = noise->standard_error.values()[i];
-          if (error > 0)
-            result.values()[i] += float(error * (together ? one : gaussian(stream, i)));
-        }
-      });
+bool is_in_region(Region region, const MetricInput& input, std::size_t pixel) {
+  switch (region) {
+    case Region::kHighlight:
+      return input.highlight[pixel] != 0;
+    case Region::kMask:
+      return input.mask[pixel] != 0;
+    case Region::kOutside:
+      return input.mask[pixel] == 0;
+    case Region::kWhole:
+      break;
+  }
+  return true;
+}
+
+/// The square of an estimated variance is on average too large by the factor 1 + 2 / freedom.
+RegionNoise noise_in(Region region, const MetricInput& input) {
+  RegionNoise result;
+  double all = 0, squares = 0, floor = 0;
+  for (const PictureNoise* one : {input.noise->a, input.noise->b}) {
+    if (!one) continue;
+    double sum = 0;
+    for (std::size_t pixel = 0; pixel < input.a.pixel_count(); ++pixel) {
+      if (!is_in_region(region, input, pixel)) continue;
+      const double variance = one->own_variance(pixel);
+      sum += variance;
+      squares += variance * variance / (one->freedom + 2);
+    }
+    all += sum;
+    floor += sum * sum / one->freedom;
+    if (one->shared && sum > 0) result.freedom = std::min(result.freedom, one->freedom);
+  }
+  if (!(all > 0)) return result;
+  result.freedom = std::min(result.freedom, std::max(1.0, all * all / squares));
+  result.floor_uncertainty = floor / (all * all);
   return result;
 }
 
-/// The bound of 97.5 % of other draws, in deviations from the mean.
-double draw_factor(const NoiseOfPair& noise, int count) {
-  double freedom = count - 1;
-  for (const PictureNoise* one : {noise.a, noise.b})
-    if (one && one->shared) freedom = std::min(freedom, one->freedom);
-  return boost::math::quantile(boost::math::students_t(freedom), 0.975) *
-         std::sqrt(1 + 1.0 / count);
-}
-
-/// How pixels err together is not known: the worse of the two spreads counts.
-ErrorBar bar_of(const Figure& figure, double factor) {
-  const MetricOutput& output = *figure.output;
-  const auto worse = [&](auto number) {
-    return std::max(number(figure.spreads[0]), number(figure.spreads[1]));
-  };
-  using Spreads = Figure::Spreads;
-  ErrorBar bar;
-  bar.standard_error = worse([](const Spreads& s) { return s.value.deviation(); });
-  bar.noise_floor = from_distance(output, worse([](const Spreads& s) { return s.nothing.mean(); }));
-  const double spread = factor * worse([](const Spreads& s) { return s.noisier.deviation(); });
-  const double floor =
-      worse([&](const Spreads& s) { return s.nothing.mean() + factor * s.nothing.deviation(); });
-  bar.noise_floor_most = from_distance(output, floor);
-  double near = figure.distance, far = figure.distance;
-  if (std::isfinite(figure.distance)) {
-    far += spread;
-    near = output.better == Better::kNearZero ? near - spread : std::max(0.0, near - floor);
+/// The largest of |a - b| over the values of a region, and what is surely left of it without noise: each value's chance to
+/// be further off is such that together they have `beyond`.
+std::pair<double, double> largest_without_noise(Region region, const MetricInput& input,
+                                                double beyond) {
+  double count = 0, largest = 0, left = 0;
+  for (std::size_t pixel = 0; pixel < input.a.pixel_count(); ++pixel)
+    count += 3 * is_in_region(region, input, pixel);
+  const CriticalT critical(sidak(beyond, std::max(1.0, count)));
+  const std::span<const float> a = input.a.values(), b = input.b.values();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!is_in_region(region, input, i / 3)) continue;
+    const double apart = std::abs(double(a[i]) - double(b[i]));
+    largest = std::max(largest, apart);
+    if (apart <= left) continue;
+    const ValueError error = error_of_difference(*input.noise, i);
+    const double noise = error.size > 0 ? critical(error.freedom) * error.size : 0;
+    left = std::max(left, apart - noise);
   }
-  const double ends[] = {from_distance(output, near), from_distance(output, far)};
-  bar.low = std::min(ends[0], ends[1]);
-  bar.high = std::max(ends[0], ends[1]);
-  return bar;
+  return {largest, left};
 }
 
 }  // namespace
+
+struct NoisyFigures::Figures {
+  explicit Figures(const MetricInput& measured) : input(measured) {}
+
+  /// The bound of other draws that so many exceed, in deviations from the mean.
+  double factor(const RegionNoise& noise, double beyond, bool of_floor) const {
+    const double freedom = 1 / (1 / noise.freedom + 1.0 / (count - 1));
+    return boost::math::quantile(
+               boost::math::complement(boost::math::students_t(freedom), beyond)) *
+           std::sqrt(1 + 1.0 / count + (of_floor ? noise.floor_uncertainty : 0));
+  }
+
+  ErrorBar bar_of(const Figure& figure, double near, double far) const {
+    const MetricOutput& output = *figure.output;
+    const RegionNoise& noise = regions.at(figure.metric->region);
+    const auto worst = [&](auto number) {
+      double result = number(figure.spreads.front());
+      // A figure that a draw does not have is not known.
+      for (const Spreads& spreads : figure.spreads)
+        if (const double one = number(spreads); !(one <= result)) result = one;
+      return result;
+    };
+    ErrorBar bar;
+    bar.standard_error = worst([](const Spreads& s) { return s.value.deviation(); });
+    const double floor = worst([](const Spreads& s) { return s.nothing.mean(); });
+    bar.noise_floor = from_distance(output, floor);
+    const auto floor_most = [&](double beyond) {
+      const double times = factor(noise, beyond, true);
+      return worst(
+          [&](const Spreads& s) { return s.nothing.mean() + times * s.nothing.deviation(); });
+    };
+    bar.noise_floor_most = from_distance(output, floor_most(kBeyondOneEnd));
+    double low = figure.distance, high = figure.distance;
+    if (output.better == Better::kNearZero && std::isfinite(figure.distance)) {
+      const double spread = worst(
+          [](const Spreads& s) { return std::max(s.noisier.deviation(), s.nothing.deviation()); });
+      const double unbiased = figure.distance - floor;
+      const bool above = unbiased >= 0;
+      low = unbiased - factor(noise, above ? near : far, false) * spread;
+      high = unbiased + factor(noise, above ? far : near, false) * spread;
+    } else if (std::isfinite(figure.distance)) {
+      high +=
+          factor(noise, far, false) * worst([](const Spreads& s) { return s.noisier.deviation(); });
+      low = std::max(0.0, low - floor_most(near));
+      if (output.is_largest_difference) {
+        const auto [largest, left] = largest_without_noise(figure.metric->region, input, near);
+        low = largest > 0 ? std::max(0.0, left / largest) * figure.distance : 0;
+      }
+    }
+    const double ends[] = {from_distance(output, low), from_distance(output, high)};
+    bar.low = std::min(ends[0], ends[1]);
+    bar.high = std::max(ends[0], ends[1]);
+    return bar;
+  }
+
+  MetricInput input;
+  std::vector<Figure> list;
+  std::map<Region, RegionNoise> regions;
+  int count = 0;
+};
+
+NoisyFigures::NoisyFigures(std::span<const Metric* const> list, const MetricInput& input,
+                           const Viewing& viewing, const DrawOptions& options)
+    : figures_(std::make_unique<Figures>(input)) {
+  const NoiseOfPair& noise = *input.noise;
+  const std::vector<Together> possibilities = what_may_err_together(noise);
+  std::map<std::string_view, std::size_t> places;
+  std::vector<Figure>& figures = figures_->list;
+  figures_->count = options.count;
+  measure_each(list, input, [&](const Metric& metric, const MetricOutput& output, double value) {
+    places[output.id] = figures.size();
+    figures.push_back(
+        {&metric, &output, as_distance(output, value), std::vector<Spreads>(possibilities.size())});
+    if (!figures_->regions.contains(metric.region))
+      figures_->regions[metric.region] = noise_in(metric.region, input);
+  });
+  const auto measure_noisy = [&](const Image& a, const Image& b, std::uint64_t stream,
+                                 Together together, auto keep) {
+    const Image noisy_a = with_noise(a, noise.a, mix(options.seed) + 2 * stream, together);
+    const Image noisy_b = with_noise(b, noise.b, mix(options.seed) + 2 * stream + 1, together);
+    // The noise also chooses the pixels of the highlight.
+    const PixelFlags highlight = input.highlight.empty()
+                                     ? PixelFlags()
+                                     : highlight_region(noisy_a, noisy_b, options.surfaces);
+    MetricInput noisy{noisy_a,
+                      noisy_b,
+                      as_shown(noisy_a, viewing),
+                      as_shown(noisy_b, viewing),
+                      input.pixels_per_degree,
+                      input.tolerance,
+                      input.hdr_exposures,
+                      input.mask,
+                      nullptr,
+                      highlight,
+                      tail_as_shown(noisy_a, noisy_b, viewing)};
+    std::vector<std::pair<double, double>> found(figures.size(), {kNaN, kNaN});
+    measure_each(list, noisy, [&](const Metric&, const MetricOutput& output, double value) {
+      if (const auto place = places.find(output.id); place != places.end())
+        found[place->second] = {value, as_distance(output, value)};
+    });
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      keep(figures[i], found[i].first, found[i].second);
+  };
+  const Image expected = common_expectation(input.a, input.b, noise);
+  for (std::size_t p = 0; p < possibilities.size(); ++p)
+    for (int k = 0; k < options.count; ++k) {
+      const auto stream = 2 * (p * std::size_t(options.count) + std::size_t(k));
+      measure_noisy(input.a, input.b, stream, possibilities[p],
+                    [&](Figure& figure, double value, double distance) {
+                      figure.spreads[p].value.add(value);
+                      figure.spreads[p].noisier.add(distance);
+                    });
+      measure_noisy(expected, expected, stream + 1, possibilities[p],
+                    [&](Figure& figure, double, double distance) {
+                      figure.spreads[p].nothing.add(distance);
+                    });
+    }
+}
+
+NoisyFigures::~NoisyFigures() = default;
+
+ErrorBars NoisyFigures::bars() const {
+  ErrorBars bars;
+  for (const Figure& figure : figures_->list)
+    bars.emplace_back(figure.output->id, figures_->bar_of(figure, kBeyondOneEnd, kBeyondOneEnd));
+  return bars;
+}
+
+ErrorBars NoisyFigures::bars_of_limits(double significance) const {
+  ErrorBars bars;
+  for (const Figure& figure : figures_->list) {
+    const double sides = figure.output->better == Better::kNearZero ? 2 : 1;
+    bars.emplace_back(figure.output->id,
+                      figures_->bar_of(figure, significance / sides, kBeyondOneEnd));
+  }
+  return bars;
+}
 
 double as_distance(const MetricOutput& output, double value) {
   if (std::isinf(output.best)) return std::pow(10, -value / 20);
@@ -126,52 +273,6 @@ double from_distance(const MetricOutput& output, double distance) {
   if (output.better == Better::kNearZero) return distance;
   const double apart = output.square ? distance * distance : distance;
   return output.better == Better::kHigher ? output.best - apart : output.best + apart;
-}
-
-ErrorBars error_bars(std::span<const Metric* const> list, const MetricInput& input,
-                     const Viewing& viewing, int count, std::uint64_t seed) {
-  const NoiseOfPair& noise = *input.noise;
-  std::vector<Figure> figures;
-  measure_each(list, input, [&](const MetricOutput& output, double value) {
-    figures.push_back({&output, as_distance(output, value), {}});
-  });
-  const auto measure_noisy = [&](const Image& a, std::uint64_t stream, bool together, auto keep) {
-    const Image noisy_a = with_noise(a, noise.a, mix(seed) + 2 * stream, together);
-    const Image noisy_b = with_noise(input.b, noise.b, mix(seed) + 2 * stream + 1, together);
-    MetricInput noisy{noisy_a,
-                      noisy_b,
-                      as_shown(noisy_a, viewing),
-                      as_shown(noisy_b, viewing),
-                      input.pixels_per_degree,
-                      input.tolerance,
-                      input.hdr_exposures,
-                      input.mask,
-                      nullptr,
-                      input.highlight,
-                      tail_as_shown(noisy_a, noisy_b, viewing)};
-    std::size_t next = 0;
-    measure_each(list, noisy, [&](const MetricOutput& output, double value) {
-      keep(figures[next++], as_distance(output, value), value);
-    });
-  };
-  const bool any_shared = (noise.a && noise.a->shared) || (noise.b && noise.b->shared);
-  for (int k = 0; k < (any_shared ? 2 : 1) * count; ++k) {
-    const bool together = k >= count;
-    const auto stream = 2 * std::uint64_t(k);
-    measure_noisy(input.a, stream, together, [&](Figure& figure, double distance, double value) {
-      figure.spreads[together].value.add(value);
-      figure.spreads[together].noisier.add(distance);
-    });
-    measure_noisy(input.b, stream + 1, together, [&](Figure& figure, double distance, double) {
-      figure.spreads[together].nothing.add(distance);
-    });
-  }
-  if (!any_shared)
-    for (Figure& figure : figures) figure.spreads[1] = figure.spreads[0];
-  ErrorBars bars;
-  const double factor = draw_factor(noise, count);
-  for (const Figure& figure : figures) bars.emplace_back(figure.output->id, bar_of(figure, factor));
-  return bars;
 }
 
 }  // namespace lobelia

@@ -1,29 +1,38 @@
 // How far noise moves each figure of a comparison.
 //
-// Source:       parametric bootstrap: B. Efron, R. Tibshirani, "An Introduction to the Bootstrap", 1993, chapter
-//               6.5. The pictures get more normal noise with their own standard errors, `count` times, from a
-//               seed, independently for each value. How pixels err together is not known. For such pictures
-//               all is repeated with one number for all values of a picture, and the worse result counts.
-// Formula:      standard_error is the spread of the figure over pairs (a + noise, b + noise). The noise floor is
-//               the figure over pairs (b + noise of a, b + noise of b), which have one expectation.
-//               noise_floor is its mean. 97.5 % of the pairs do not exceed noise_floor_most (for a
+// Source:       bootstrap: B. Efron, R. Tibshirani, "An Introduction to the Bootstrap", 1993, chapter 6.5. The pictures
+//               get more noise, `count` times, from a seed (noise_draws.hpp). What errs together may not be known: then
+//               all is repeated for each possibility, and the worst result counts.
+// Formula:      standard_error is the spread of the figure over pairs (a + noise, b + noise). The noise floor is the
+//               figure over pairs (e + noise of a, e + noise of b) around the expectation e that both pictures would have
+//               if they were equal. noise_floor is its mean. 97.5 % of the pairs do not exceed noise_floor_most (for a
 //               similarity: are not below it).
 // Interval:     [low, high] holds the figure of the expectations, which endless samples would give, with a
 //               probability of 95 %. Noise increases most errors, so the figure is not in the middle. high is
 //               the figure plus 97.5 % of its spread. low is the figure less 97.5 % of the noise floor, as an
 //               error is a distance: d(a, b) <= d(a, A) + d(A, B) + d(B, b). The roots of squares (MSE,
-//               1 - SSIM) are distances, as are the ratios of errors behind decibels. drift has no floor: its
-//               interval is the figure and 97.5 % of its spread to either side.
+//               1 - SSIM) are distances, as are the ratios of errors behind decibels. A signed figure, as drift, has no
+//               floor but a bias, the mean of the pairs around e: its interval is the figure less the bias, and 97.5 %
+//               of the larger of both spreads to either side.
+// Largest:      the largest of single differences (max_abs, max_rel_peak) is moved by the tail of the noise, which few
+//               replicates do not tell. Its low is the largest of |a - b| - c * error over the values, by the cautious
+//               errors (noise.hpp) and the c that all values together exceed in so many pairs. So a firefly that a
+//               replicate has is no difference.
 // Exact for:    norms: mae, rmse, mse, max_abs, psnr. The others are nearly norms;
-//               tests/compare/uncertainty_test.cpp measures their coverage.
-// Factor:       97.5 % is Student's t for count - 1 degrees of freedom times sqrt(1 + 1 / count), the bound of
-//               another draw. If pixels err together, the noise may have fewer degrees of freedom; they apply.
+//               tests/compare/uncertainty_test.cpp measures their coverage, and `lobelia verify verdicts` the verdicts.
+// Factor:       97.5 % is Student's t times sqrt(1 + 1 / count), the bound of another draw. Its degrees of freedom are
+//               those of `count` draws and of the noise together, as the variances of two means add up: f noisy pixels
+//               with few replicates know their noise no better than f numbers. The few brightest pixels of a highlight,
+//               or a few fireflies, count as few pixels (F. E. Satterthwaite, "An Approximate Distribution of Estimates
+//               of Variance Components", Biometrics Bulletin 2, 1946). A floor is itself a sum of errors from n
+//               replicates, and as uncertain as the figure times 1 / (n - 1): its factor has that under the root, too.
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 #include "compare/metrics/metric.hpp"
-#include "compare/uncertainty/noise.hpp"
+#include "compare/uncertainty/noise_draws.hpp"
 #include "records/comparison.hpp"
 
 namespace lobelia {
@@ -33,31 +42,38 @@ using ErrorBar = records::ErrorBar;
 using ErrorBars = records::Named<ErrorBar>;
 
 inline constexpr int kFewestBootstraps = 4, kMostBootstraps = 1000;
+/// The chance of a figure beyond one end of its error bar.
+inline constexpr double kBeyondOneEnd = 0.025;
 
-/// Error bars of all figures of the listed metrics that are neither facts nor about noise, for an input with noise.
-/// `count` is from kFewestBootstraps to kMostBootstraps. Holds two more pictures. Takes 2 * count times as long as the
-/// metrics, twice that if pixels err together.
-ErrorBars error_bars(std::span<const Metric* const> list, const MetricInput& input,
-                     const Viewing& viewing, int count, std::uint64_t seed);
+struct DrawOptions {
+  int count = 32;  ///< of pairs of each kind, from kFewestBootstraps to kMostBootstraps
+  std::uint64_t seed = 0;
+  std::span<const std::uint8_t> surfaces =
+      {};  ///< where the highlight of a draw may lie, as in ComparisonOptions
+};
+
+/// All figures of the listed metrics that are neither facts nor about noise, under noise.
+class NoisyFigures {
+ public:
+  /// Measures the draws of an input with noise, which has to outlive this. Holds three more pictures. Takes 2 * count times as long
+  /// as the metrics, times the possibilities of what_may_err_together().
+  NoisyFigures(std::span<const Metric* const> list, const MetricInput& input,
+               const Viewing& viewing, const DrawOptions& options);
+  ~NoisyFigures();
+
+  /// The error bars of 95 %.
+  ErrorBars bars() const;
+  /// Those for limits: of equal pictures, a bar excludes 0 with this chance, in (0, 0.5]. A signed figure may be beyond
+  /// either side. The other end, towards larger errors, is that of bars().
+  ErrorBars bars_of_limits(double significance) const;
+
+ private:
+  struct Figures;
+  std::unique_ptr<Figures> figures_;
+};
 
 /// A figure as a distance, see above, and back. A signed error stays as it is.
 double as_distance(const MetricOutput& output, double value);
 double from_distance(const MetricOutput& output, double distance);
-
-/// Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators": splitmix64's output function.
-constexpr std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-/// Number `index` of a stream, of mean 0 and variance 1 (Box and Muller 1958). Without state, so that the number of
-/// threads does not matter.
-inline double gaussian(std::uint64_t stream, std::uint64_t index) {
-  const std::uint64_t bits = mix(mix(stream) ^ index);
-  const double u = (double(bits >> 32) + 0.5) * 0x1p-32, v = double(bits & 0xffffffffu) * 0x1p-32;
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-}
 
 }  // namespace lobelia

@@ -12,8 +12,6 @@
 namespace lobelia {
 namespace {
 
-/// With fewer degrees of freedom a value's own error is not reliable.
-constexpr double kFewFreedom = 8;
 constexpr int kSquare = 5, kLineReach = 8, kLine = 2 * kLineReach + 1;
 /// From this side on, every pixel is a corner of a whole square.
 constexpr int kLeastSide = 2 * (kSquare - 1);
@@ -96,6 +94,30 @@ Image roots(int width, int height, Variance variance) {
   return result;
 }
 
+/// The share of pixels that err far more than all around them.
+double share_of_fireflies(const Variances& variances, int width, int height) {
+  constexpr double kOfVariance = kFireflyFactor * kFireflyFactor;
+  const auto size = [&](int x, int y) {
+    return variances.at(x, y, 0) + variances.at(x, y, 1) + variances.at(x, y, 2);
+  };
+  const auto is_firefly = [&](int x, int y) {
+    const double own = size(x, y);
+    if (own == 0) return false;
+    double around = 0;
+    for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j)
+      for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i)
+        if (i != x || j != y) around = std::max(around, size(i, j));
+    return around > 0 && own > kOfVariance * around;
+  };
+  std::vector<std::int64_t> counts(std::size_t(height), 0);
+  oneapi::tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) counts[std::size_t(y)] += is_firefly(x, y);
+  });
+  std::int64_t count = 0;
+  for (const std::int64_t one : counts) count += one;
+  return double(count) / (double(width) * height);
+}
+
 PictureNoise noise_of(const Image& error, double freedom, bool shared) {
   const Variances variances(error);
   const int width = error.width(), height = error.height();
@@ -113,8 +135,47 @@ PictureNoise noise_of(const Image& error, double freedom, bool shared) {
     return std::max(variances.at(x, y, c), pooled.largest_around(x, y, c));
   });
   const bool has_windows = std::min(width, height) >= kLeastSide;
+  noise.fireflies = share_of_fireflies(variances, width, height);
   noise.pooled_freedom = has_windows && !shared ? std::max(freedom, double(kLine)) : freedom;
   return noise;
+}
+
+/// The pixels whose error is far larger than around them, where the mean is brighter than around it.
+PixelFlags errs_upwards(const Image& mean, const Image& error) {
+  constexpr double kFar = 2.5;
+  const Variances variances(error);
+  const auto sum = [](auto of_channel) { return of_channel(0) + of_channel(1) + of_channel(2); };
+  const auto light = [&](int x, int y) {
+    const auto pixel = mean.pixel(x, y);
+    return pixel[0] + pixel[1] + pixel[2];
+  };
+  PixelFlags upward(mean.pixel_count());
+  oneapi::tbb::parallel_for(0, mean.height(), [&](int y) {
+    for (int x = 0; x < mean.width(); ++x) {
+      const double own = sum([&](int c) { return variances.at(x, y, c); });
+      const double around = sum([&](int c) { return variances.mean_around(x, y, c); });
+      if (!(own > kFar * kFar * around)) continue;
+      int darker = 0, count = 0;
+      for (int j = std::max(0, y - 1); j <= std::min(mean.height() - 1, y + 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(mean.width() - 1, x + 1); ++i, ++count)
+          darker += light(i, j) < light(x, y);
+      upward[std::size_t(y) * std::size_t(mean.width()) + std::size_t(x)] = 2 * darker > count;
+    }
+  });
+  return upward;
+}
+
+/// Throws Error(kInput) for a picture that is no error or no variance.
+void require_errors(const Image& image, std::string_view what) {
+  if (image.pixel_count() == 0)
+    throw Error(ExitCode::kInput, fmt::format("the picture of {}s has no pixels", what));
+  const auto values = image.values();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] >= 0) || !std::isfinite(values[i]))
+      throw Error(ExitCode::kInput,
+                  fmt::format("a {} is {} at pixel ({}, {}); it must be finite and not negative",
+                              what, values[i], i / 3 % std::size_t(image.width()),
+                              i / 3 / std::size_t(image.width())));
 }
 
 }  // namespace
@@ -123,17 +184,19 @@ PictureNoise noise_of_standard_errors(const Image& standard_error, double freedo
   if (!(freedom >= 1))
     throw Error(ExitCode::kUsage,
                 fmt::format("{} degrees of freedom; there must be at least 1", freedom));
-  if (standard_error.pixel_count() == 0)
-    throw Error(ExitCode::kInput, "the picture of standard errors has no pixels");
-  const auto values = standard_error.values();
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] >= 0) || !std::isfinite(values[i]))
-      throw Error(ExitCode::kInput,
-                  fmt::format("a standard error is {} at pixel ({}, {}); it must be finite and not "
-                              "negative",
-                              values[i], i / 3 % std::size_t(standard_error.width()),
-                              i / 3 / std::size_t(standard_error.width())));
+  require_errors(standard_error, "standard error");
   return noise_of(standard_error, freedom, shared);
+}
+
+PictureNoise noise_of_variances(const Image& variance, double samples, double freedom,
+                                bool shared) {
+  if (!(samples >= 1))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{:g} samples a pixel; there must be at least 1", samples));
+  require_errors(variance, "variance");
+  Image error = variance;
+  for (float& value : error.values()) value = float(std::sqrt(double(value) / samples));
+  return noise_of_standard_errors(error, samples >= 2 ? samples - 1 : freedom, shared);
 }
 
 NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) {
@@ -158,7 +221,38 @@ NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) 
     // A mean that is not finite needs no error.
     error.values()[i] = std::isfinite(squares) ? float(std::sqrt(squares / (n * (n - 1)))) : 0;
   }
-  return {std::move(mean), noise_of(error, n - 1, shared)};
+  PictureNoise noise = noise_of(error, n - 1, shared);
+  for (const Image& image : replicates.first(replicates.size() - 1)) {
+    Image& deviation = noise.deviations.emplace_back(image);
+    for (std::size_t i = 0; i < mean.values().size(); ++i)
+      deviation.values()[i] -= mean.values()[i];
+  }
+  noise.upward = errs_upwards(mean, error);
+  return {std::move(mean), std::move(noise)};
+}
+
+std::vector<Image*> PictureNoise::images() {
+  std::vector<Image*> all{&standard_error, &cautious};
+  for (Image& deviation : deviations) all.push_back(&deviation);
+  return all;
+}
+
+double PictureNoise::own_variance(std::size_t pixel) const {
+  double sum = 0;
+  for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+    if (deviations.empty()) {
+      sum += double(standard_error.values()[i]) * double(standard_error.values()[i]);
+      continue;
+    }
+    double last = 0, squares = 0;
+    for (const Image& deviation : deviations) {
+      const double value = double(deviation.values()[i]);
+      last -= value;
+      squares += value * value;
+    }
+    sum += (squares + last * last) / (freedom * (freedom + 1));
+  }
+  return sum;
 }
 
 }  // namespace lobelia

@@ -27,8 +27,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/image.hpp"
+#include "core/pixel_flags.hpp"
 
 namespace lobelia {
 
@@ -39,7 +41,28 @@ struct PictureNoise {
   double pooled_freedom = 0;  ///< of a value of `cautious`
   bool shared = false;        ///< pixels err together: they share their points, or were filtered
   std::string layer = {};     ///< of the picture's file that says it; empty for other files
+  /// Of each replicate but the last, its difference from the mean: their sum is less than that of the last one. How the
+  /// channels of a pixel err together, and how heavy the tails are, is in them. Empty for noise of another source.
+  std::vector<Image> deviations = {};
+  /// Besides them by pixel, 1 where the mean errs far more than around it, and upwards: of two replicates, the difference does
+  /// not say which one is wrong.
+  PixelFlags upward = {};
+  /// The share of pixels with a firefly: an error of more than kFireflyFactor times those of all eight neighbours.
+  double fireflies = 0;
+
+  /// The squared standard errors of a pixel's three values, by its own replicates alone.
+  double own_variance(std::size_t pixel) const;
+  /// All its pictures, each of the size of the picture, 0 where it has no noise.
+  std::vector<Image*> images();
 };
+
+/// With fewer degrees of freedom a value's own error is not reliable.
+inline constexpr double kFewFreedom = 8;
+
+/// Normal noise has a firefly in a hundred million pixels, exponential noise in 3000.
+inline constexpr double kFireflyFactor = 6;
+/// From this share on the tails of the noise count as heavy.
+inline constexpr double kHeavyTails = 0.001;
 
 /// Degrees of freedom of the standard errors that `lobelia reference --standard-error` writes.
 inline constexpr double kFreedomOfErrors = 15;
@@ -48,13 +71,18 @@ inline constexpr double kFreedomOfErrors = 15;
 /// pixels, and Error(kUsage) for less than one degree of freedom.
 PictureNoise noise_of_standard_errors(const Image& standard_error, double freedom, bool shared);
 
+/// Noise from a picture of the variance of one of the `samples` that each value is the mean of. With one sample it is that of
+/// the value itself, of `freedom` degrees of freedom; otherwise there is one fewer than samples. Throws as
+/// noise_of_standard_errors(), Error(kUsage) for fewer than one sample.
+PictureNoise noise_of_variances(const Image& variance, double samples, double freedom, bool shared);
+
 struct NoisyPicture {
   Image image;
   PictureNoise noise;
 };
 
 /// The mean of independent pictures of the same scene with equally many samples, and its noise, with one degree of
-/// freedom fewer than pictures. If a value is not finite in one picture, its mean is not finite either and has no error.
+/// freedom fewer than pictures. Copies the pictures as their deviations. If a value is not finite in one picture, its mean is not finite either and has no error.
 /// Throws Error(kInput) for fewer than two pictures or different sizes.
 NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared);
 

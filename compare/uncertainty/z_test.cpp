@@ -189,6 +189,17 @@ double count_of_tests(int width, int height) {
   return tests;
 }
 
+ValueError error_of_difference(const NoiseOfPair& noise, std::size_t value) {
+  double all = 0, squares = 0;
+  for (const PictureNoise* one : {noise.a, noise.b}) {
+    if (!one) continue;
+    const double error = double(one->cautious.values()[value]), variance = error * error;
+    all += variance;
+    squares += variance * variance / one->pooled_freedom;
+  }
+  return {std::sqrt(all), squares > 0 ? all * all / squares : kInfinity};
+}
+
 ZTest z_test(const MetricInput& input) { return Test(input).run(); }
 
 }  // namespace lobelia

@@ -27,6 +27,12 @@ struct NoiseOfPair {
 };
 inline constexpr double kLeastSignificance = 1e-12, kMostSignificance = 0.5;
 
+/// The cautious error of a - b in one value, and Welch's degrees of freedom.
+struct ValueError {
+  double size = 0, freedom = 0;
+};
+ValueError error_of_difference(const NoiseOfPair& noise, std::size_t value);
+
 struct ZTest {
   double largest = 0;         ///< |z| of all values of pixels and regions
   int x = 0, y = 0;           ///< its upper left pixel

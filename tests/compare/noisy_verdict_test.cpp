@@ -103,5 +103,45 @@ TEST(NoisyVerdict, OfALimitThatCouldNotBeMeasuredIsUndecided) {
   EXPECT_EQ(compare(small, small, options).verdict, Verdict::kUndecided);
 }
 
+/// The standing of a limit of 0.001 on the drift of an even picture that is too bright by 6.2 standard errors of its mean.
+std::string standing_of_drift(double significance, std::vector<MetricLimit> more = {}) {
+  const Image b = fixtures::flat(48, 48, 0.5f, 0.5f, 0.5f),
+              a = fixtures::flat(48, 48, 0.5062f, 0.5062f, 0.5062f);
+  ComparisonOptions options;
+  options.default_limits = false;
+  options.limits = std::move(more);
+  options.limits.insert(options.limits.begin(), {"drift", 0.001});
+  options.noise = NoiseOptions{.a = fixtures::even_noise(48, 48, 0.048f, 1e9),
+                               .significance = significance,
+                               .bootstraps = 64};
+  return compare(a, b, options).limits.front().standing;
+}
+
+TEST(NoisyVerdict, IsStricterAtASmallerSignificanceAndWithMoreLimits) {
+  EXPECT_EQ(standing_of_drift(0.01), Standing::kBroken);
+  EXPECT_EQ(standing_of_drift(1e-9), Standing::kOpen);
+  // Limits that hold for certain take their part of the significance.
+  std::vector<MetricLimit> many;
+  for (const char* id : {"mae", "mse", "rmse", "max_abs", "relmse", "max_rel_peak", "psnr"})
+    many.push_back({id, std::string_view(id) == "psnr" ? 0.0 : 1.0});
+  double alone = 1e-2, together = 1e-2;
+  while (standing_of_drift(alone) == Standing::kBroken) alone /= 2;
+  while (standing_of_drift(together, many) == Standing::kBroken) together /= 2;
+  EXPECT_GT(together, 3 * alone);
+}
+
+TEST(NoisyVerdict, SaysHowManyLimitsShareTheSignificance) {
+  ComparisonOptions options = usual_options();
+  const auto [a, b] = pair(0, 0.01f);
+  options.noise = NoiseOptions{.a = fixtures::even_noise(48, 48, 0.01f), .bootstraps = 4};
+  const auto all = default_limits().size() + highlight_limits().size();
+  const auto judges = [&] { return compare(a, b, options).uncertainty->judges.value(); };
+  EXPECT_EQ(judges(), int(all) + 1) << "all tests of pixels and regions are one";
+  options.limits = {{"rmse", 1}, {"max_rel_peak", 0.1}};
+  EXPECT_EQ(judges(), int(all) + 1) << "one replaces a default limit";
+  options.default_limits = false;
+  EXPECT_EQ(judges(), 2);
+}
+
 }  // namespace
 }  // namespace lobelia
