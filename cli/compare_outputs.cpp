@@ -26,7 +26,11 @@ void add_inputs(const CompareArguments& options, const Pairing& pairing, OutputF
       for (const fs::path& file : picture_files(*shapes)) outputs.reads(file);
   const bool by_name = has_folders_by_name(job, pairing);
   for (const PictureRow& row : pairing.rows) {
-    for (const std::string& file : row.files) outputs.reads(file);
+    for (const std::string& file : row.files) {
+      outputs.reads(file);
+      for (const std::string& ending : job.pictures.companions)
+        if (!file.empty()) outputs.reads(with_ending(file, ending));
+    }
     for (const fs::path& file : job.noise.files(by_name ? row.name : "")) outputs.reads(file);
     if (!job.c.empty()) outputs.reads(file_of(job.c, by_name ? row.name : ""));
   }

@@ -170,6 +170,10 @@ void define_project_tables(Tables& tables) {
         t.key("layer", "as --layer");
         t.key("scene", "as --scene");
         t.key("ignoreAlpha", "as --ignore-alpha");
+        t.key("judgedVariance", "as --a-variance: \"*_variance.exr\" is beside each picture");
+        t.key("referenceVariance", "as --b-variance, likewise");
+        t.key("judgedSamples", "as --a-samples").at_least(1);
+        t.key("referenceSamples", "as --b-samples").at_least(1);
         t.key("rules", "the last that fits a pair counts most");
         t.check(contradiction_of_project);
       });

@@ -29,6 +29,8 @@ struct Project {
   std::optional<bool> default_limits;
   std::string exposure, layer, scene;
   std::optional<bool> ignore_alpha;
+  std::string judged_variance, reference_variance;
+  std::optional<double> judged_samples, reference_samples;
   std::vector<ProjectRule> rules;
   std::vector<KnownDifference> known;
 };

@@ -98,7 +98,8 @@ std::vector<CompareOption> options_of_noise() {
   std::vector<CompareOption> options;
   const auto add_picture = [&](std::string_view picture, std::string_view replicate,
                                std::vector<std::string> Choice::*replicates, std::string_view error,
-                               std::string Choice::*errors) {
+                               std::string Choice::*errors, std::string_view variance,
+                               std::string Choice::*variances) {
     options.push_back(
         {replicate, replicates, For::kPictures, kHeading, "FILE|DIR",
          fmt::format(
@@ -111,14 +112,27 @@ std::vector<CompareOption> options_of_noise() {
          .place = errors,
          .applies_to = For::kPictures,
          .heading = kHeading,
-         .value = "FILE|DIR",
+         .value = "FILE|DIR|*END",
          .meaning = fmt::format("Picture of the standard errors of {}, as render and reference "
-                                "--standard-error write",
+                                "--standard-error write; '*_error.exr' is the file beside it with "
+                                "that in place of its ending",
                                 picture),
          .excludes = {replicate}});
+    options.push_back({.name = variance,
+                       .place = variances,
+                       .applies_to = For::kPictures,
+                       .heading = kHeading,
+                       .value = "FILE|DIR|*END",
+                       .meaning = fmt::format(
+                           "Likewise of the variance of one sample of {0}, with --{1}-samples; "
+                           "with 1 sample, that of {0} itself",
+                           picture, variance.front()),
+                       .excludes = {replicate, error}});
   };
-  add_picture("A", "a-replicate", &Choice::a_replicate, "a-error", &Choice::a_error);
-  add_picture("B", "b-replicate", &Choice::b_replicate, "b-error", &Choice::b_error);
+  add_picture("A", "a-replicate", &Choice::a_replicate, "a-error", &Choice::a_error, "a-variance",
+              &Choice::a_variance);
+  add_picture("B", "b-replicate", &Choice::b_replicate, "b-error", &Choice::b_error, "b-variance",
+              &Choice::b_variance);
   options.push_back({.name = "noise-from-layers",
                      .place = &Choice::noise_from_layers,
                      .applies_to = For::kFiles,
@@ -129,10 +143,13 @@ std::vector<CompareOption> options_of_noise() {
                      .words = {"a", "b", "both"}});
   for (const auto& [name, place] :
        {std::pair("a-samples", &Choice::a_samples), {"b-samples", &Choice::b_samples}})
-    options.push_back({name, place, For::kFiles, kHeading, "NUMBER",
-                       "Samples per pixel of that file, if it does not say them", 2, kMostSamples});
+    options.push_back({name, place, For::kPictures, kHeading, "NUMBER",
+                       "Samples per pixel, for those layers or the variance, if the file does not "
+                       "say them",
+                       1, kMostSamples});
   options.push_back({"freedom", &Choice::freedom, For::kPictures, kHeading, "NUMBER",
-                     "Degrees of freedom of those errors: independent estimates less one", 1, 1e9});
+                     "Degrees of freedom of pictures of errors: independent estimates less one", 1,
+                     1e9});
   options.push_back({.name = "shared-noise",
                      .place = &Choice::shared_noise,
                      .applies_to = For::kPictures,
@@ -142,9 +159,10 @@ std::vector<CompareOption> options_of_noise() {
                                 "filtered: a, b, both or none; default: what has a picture of "
                                 "errors",
                      .words = {"a", "b", "both", "none"}});
-  options.push_back({"significance", &Choice::significance, For::kPictures, kHeading, "",
-                     "Chance of finding a difference beyond the noise where there is none",
-                     kLeastSignificance, kMostSignificance});
+  options.push_back(
+      {"significance", &Choice::significance, For::kPictures, kHeading, "",
+       "Chance that pictures of one expectation are called different, by any of the limits",
+       kLeastSignificance, kMostSignificance});
   options.push_back(
       {"bootstrap", &Choice::bootstrap, For::kPictures, kHeading, "",
        "Pairs with noise that error bars are made of; each figure is measured twice as often",

@@ -31,7 +31,7 @@ struct CompareChoice {
   std::string crop;
 
   std::vector<std::string> a_replicate, b_replicate;
-  std::string a_error, b_error, noise_from_layers, shared_noise;
+  std::string a_error, b_error, a_variance, b_variance, noise_from_layers, shared_noise;
   double a_samples = 0, b_samples = 0;  ///< of a pixel; 0: as the file says
   double freedom = kFreedomOfErrors;
   double significance = NoiseOptions().significance;

@@ -96,6 +96,7 @@ CompareJob make_job(CompareChoice choice, const ReadScene& read_scene) {
   if (!job.scene.empty()) add_scene(read_scene, job);
   job.parts = PictureParts(choice, comparison);
   job.noise = NoiseFiles(choice, comparison);
+  job.pictures.companions = job.noise.endings();
   check_together(choice, job);
   check_options(comparison);
   check_rules(job);

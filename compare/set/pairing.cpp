@@ -98,6 +98,9 @@ std::map<std::string, FolderWalk> walk_all(const PairingChoice& choice, Pairing&
   for (const std::string& folder : choice.given) {
     const auto [at, is_new] = walks.try_emplace(folder, folder, choice.most_files);
     if (!is_new) continue;
+    for (const std::string& ending : choice.companions)
+      std::erase_if(at->second.pictures,
+                    [&](const std::string& name) { return name.ends_with(ending); });
     pairing.passed_over += at->second.passed_over;
     pairing.not_followed.insert(pairing.not_followed.end(), at->second.not_followed.begin(),
                                 at->second.not_followed.end());

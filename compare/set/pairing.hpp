@@ -47,6 +47,8 @@ struct PairingChoice {
   std::string
       sets;  ///< "engine=mine,reference": the field that tells the sets apart, and its values
   std::size_t most_files = 1'000'000;
+  /// Files of folders with such an ending belong to pictures and are none themselves: "_variance.exr".
+  std::vector<std::string> companions = {};
 };
 
 /// Whether the file's name stands for a sequence: it holds %04d, %d or ####, once.

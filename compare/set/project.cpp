@@ -72,6 +72,28 @@ void apply_pictures(const records::Project& project, const FromProject& from,
   }
 }
 
+/// The project's noise of a picture, where the choice has none of it.
+void fill_in_noise(const records::Project& project, const FromProject& from,
+                   CompareChoice& choice) {
+  const auto is_from_layers = [&](const char* letter) {
+    return choice.noise_from_layers == letter || choice.noise_from_layers == "both";
+  };
+  // What is beside each picture has no folder.
+  const auto file = [&](const std::string& given) {
+    return given.starts_with('*') ? given : from(given);
+  };
+  if (choice.a_error.empty() && choice.a_variance.empty() && choice.a_replicate.empty() &&
+      !is_from_layers("a")) {
+    choice.a_variance = file(project.judged_variance);
+    if (choice.a_samples == 0) choice.a_samples = project.judged_samples.value_or(0);
+  }
+  if (choice.b_error.empty() && choice.b_variance.empty() && choice.b_replicate.empty() &&
+      !is_from_layers("b")) {
+    choice.b_variance = file(project.reference_variance);
+    if (choice.b_samples == 0) choice.b_samples = project.reference_samples.value_or(0);
+  }
+}
+
 void fill_in(const records::Project& project, CompareChoice& choice, CompareJob& job) {
   const FromProject from(choice.project);
   ComparisonOptions& comparison = job.comparison;
@@ -89,6 +111,7 @@ void fill_in(const records::Project& project, CompareChoice& choice, CompareJob&
   if (choice.exposure.empty()) choice.exposure = project.exposure;
   if (choice.layer.empty() && !choice.all_layers) choice.layer = project.layer;
   if (choice.scene.empty()) choice.scene = from(project.scene);
+  fill_in_noise(project, from, choice);
   choice.ignore_alpha = choice.ignore_alpha || project.ignore_alpha.value_or(false);
   for (std::size_t i = 0; i < project.rules.size(); ++i)
     job.rules.push_back(rule_of(project.rules[i], i, from));

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compare/uncertainty/noise_draws.hpp"
+#include "core/image_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/json.hpp"
@@ -108,6 +110,97 @@ TEST(CompareWithNoise, ReadsItFromTheLayersOfTheFilesThemselves) {
   EXPECT_THAT(unknown.output_tail, HasSubstr("does not say how many samples a pixel has"));
   EXPECT_EQ(compare("b.exr", {"--a-samples", "64"}).exit_code, 2);
   EXPECT_EQ(compare("b.exr", {"--noise-from-layers", "a", "--a-replicate", "b.exr"}).exit_code, 2);
+}
+
+/// Every value a normal number of this mean and deviation, from a seed.
+Image scattered(float mean, float deviation, std::uint64_t seed) {
+  Image image(32, 32);
+  for (std::size_t i = 0; i < image.values().size(); ++i)
+    image.values()[i] = mean + deviation * float(gaussian(seed, i));
+  return image;
+}
+
+class CompareWithVariances : public testing::Test {
+ protected:
+  /// Pictures of samples of variance 4: 100 of each pixel.
+  void SetUp() override {
+    for (const char* folder : {"mine", "references", "variances"})
+      std::filesystem::create_directory(at(folder));
+    write_exr(at("mine/x.exr"), scattered(1, 0.2f, 1), {});
+    write_exr(at("references/x.exr"), scattered(1, 0.2f, 2), {});
+    write_exr(at("brighter.exr"), scattered(1.2f, 0.2f, 3), {});
+    for (const char* file : {"mine/x_var.exr", "references/x_var.exr", "variances/x.exr"})
+      write_exr(at(file), scattered(4, 0, 0), {});
+    write_exr(at("of_mean.exr"), scattered(0.04f, 0, 0), {});
+    write_exr(at("negative.exr"), scattered(-1, 0, 0), {});
+  }
+  std::filesystem::path at(const std::string& file) const { return directory_.path() / file; }
+  ProcessResult compare(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "compare");
+    return run_lobelia(arguments, directory_.path());
+  }
+  /// The record, of one limit that noise alone does not break.
+  Json record(std::vector<std::string> arguments, ExitCode code) const {
+    arguments.insert(arguments.end(),
+                     {"--no-default-limits", "--fail", "drift=0.05", "--json", "record.json"});
+    const auto result = compare(arguments);
+    EXPECT_EQ(result.exit_code, int(code)) << result.output_tail;
+    return read_json(at("record.json"));
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(CompareWithVariances, TakeThemOfOneSampleOrOfTheMean) {
+  const std::vector<std::string> of_sample{
+      "mine/x.exr", "references/x.exr", "--b-variance",   "of_mean.exr", "--b-samples",
+      "1",          "--a-variance",     "mine/x_var.exr", "--a-samples", "100"};
+  const Json same = record(of_sample, ExitCode::kSuccess);
+  EXPECT_EQ(same["uncertainty"]["a"]["freedom"], 99);
+  EXPECT_EQ(same["uncertainty"]["b"]["freedom"], 15);
+  EXPECT_EQ(same["uncertainty"]["a"]["shared"], false);
+  // Both have the same error, 0.2, so drift has that over the root of the number of pixels, for grey noise.
+  EXPECT_NEAR(double(same["errorBars"]["drift"]["standardError"]), 0.2 * std::sqrt(2 / 1024.0),
+              3e-3);
+  record({"brighter.exr", "references/x.exr", "--b-variance", "references/x_var.exr", "--b-samples",
+          "100"},
+         ExitCode::kDiffers);
+}
+
+TEST_F(CompareWithVariances, FindThemBesideThePicturesOfAFolderAndCompareThemNot) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--b-variance", "*_var.exr", "--b-samples", "100", "--a-variance",
+                                 "*_var.exr", "--a-samples", "100"},
+        {"--project", "project.toml"}}) {
+    write_file(at("project.toml"),
+               "referenceVariance = \"*_var.exr\"\nreferenceSamples = 100\n"
+               "judgedVariance = \"*_var.exr\"\njudgedSamples = 100\n");
+    auto arguments = more;
+    arguments.insert(arguments.begin(), {"mine", "references"});
+    const Json set = record(arguments, ExitCode::kSuccess);
+    ASSERT_EQ(set["pairs"].size(), 1u);
+    EXPECT_EQ(set["summary"]["missing"], 0);
+    EXPECT_EQ(set["pairs"][0]["comparison"]["uncertainty"]["b"]["freedom"], 99);
+  }
+  std::filesystem::remove(at("references/x_var.exr"));
+  std::filesystem::remove(at("mine/x_var.exr"));
+  record({"mine", "references", "--b-variance", "variances", "--b-samples", "100"},
+         ExitCode::kSuccess);
+}
+
+TEST_F(CompareWithVariances, RefuseWhatIsNoneOrNotComplete) {
+  const auto refused = [&](std::vector<std::string> more, int code, const char* why) {
+    more.insert(more.begin(), {"mine/x.exr", "references/x.exr"});
+    const auto result = compare(more);
+    EXPECT_EQ(result.exit_code, code);
+    EXPECT_THAT(result.output_tail, HasSubstr(why));
+  };
+  refused({"--b-variance", "of_mean.exr"}, 2, "or 1 if the variance is that of the mean");
+  refused({"--b-variance", "negative.exr", "--b-samples", "9"}, 3,
+          "a variance is -1 at pixel (0, 0)");
+  refused({"--b-variance", "references/*_var.exr", "--b-samples", "9"}, 2, "comes first");
+  refused({"--b-variance", "*_none.exr", "--b-samples", "9"}, 3, "references/x_none.exr");
+  refused({"--b-samples", "9"}, 2, "--b-variance");
+  refused({"--b-variance", "of_mean.exr", "--b-error", "of_mean.exr"}, 2, "excludes");
 }
 
 }  // namespace
