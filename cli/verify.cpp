@@ -1,14 +1,17 @@
-// lobelia verify paper | stability | references
+// lobelia verify paper | stability | references | verdicts
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
+#include "compare/uncertainty/error_bars.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "studies/agreement/report.hpp"
 #include "studies/paper/report.hpp"
 #include "studies/stability/report.hpp"
+#include "studies/verdicts/report.hpp"
+#include "studies/verdicts/verdicts.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -219,6 +222,76 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
   });
 }
 
+struct VerifyVerdictsArguments {
+  std::string json, plots, pictures;
+  std::vector<std::string> noises;
+  bool markdown = false;
+  verdicts::Options measured;
+  WorkLimits limits;
+  EnginePrograms programs;
+};
+
+ExitCode run_verify_verdicts(VerifyVerdictsArguments options) {
+  for (const std::string& typed : options.noises)
+    options.measured.noises.push_back(
+        verdicts::Noise(chosen_place(typed, "--noise", verdicts::kNoiseNames)));
+  options.measured.pictures = options.pictures;
+  options.measured.blender = options.programs.of("blender");
+  OutputFiles().writes_report(options.json);
+  if (!options.plots.empty()) make_directories(options.plots);
+  ProgressLine progress;
+  records::VerifyVerdicts record = verdicts::measure(
+      options.measured, [&](double done) { progress.show(done, "pairs with noise"); });
+  progress.clear();
+  record.command = command_line();
+  FilesTogether files;
+  if (!options.plots.empty()) verdicts::write_charts(options.plots, record);
+  write_reports(
+      options.markdown ? verdicts::report_markdown(record) : verdicts::report_text(record),
+      {{options.json, record_text(record)}}, files);
+  return record.outside == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
+  auto* command = verify.add_subcommand(
+      "verdicts", "Count how often pictures with noise are called different, rightly and wrongly");
+  auto options = std::make_shared<VerifyVerdictsArguments>();
+  OptionGroup group(*command);
+  auto* json = add_json(group, options->json, "verify-verdicts");
+  group.add("--plots", options->plots, "DIR", "Write the curves as SVG files into DIR");
+  group.add(
+      "--pictures", options->pictures, "DIR",
+      "Write the pairs into folders in DIR, for another judge: NOISE-SIZE-SAMPLES-PICTURES/b1, "
+      "b2, ... and CHANGE/a1, a2, ...");
+  group.add_number("--seeds", options->measured.seeds, 1, 100000, "Pairs of each kind of noise");
+  group.add(
+      "--noise", options->noises, "NAME",
+      fmt::format("This kind of noise alone: {}; may be given again", join(verdicts::kNoiseNames)));
+  group.add_number("--significance", options->measured.significance, 1e-6, 0.5,
+                   "The chance of a false difference that is asked for");
+  group
+      .add("--bootstrap", options->measured.bootstraps, "NUMBER",
+           "As that of compare; default: its own")
+      ->check(between(kFewestBootstraps, kMostBootstraps));
+  group.add_flag("--small", options->measured.small,
+                 "Two kinds of pairs for each kind of noise, without Cycles");
+  group.add_flag("--markdown", options->markdown, "Print the table of docs/verdicts.md instead")
+      ->excludes(json);
+  options->programs.add_to(*command);
+  options->limits.add_to(group);
+  command->footer(
+      "Each pair is judged as compare does by default: with both expectations equal, where different\n"
+      "is a false alarm, and with one picture dimmer or moved. docs/verdicts.md has the outcome.\n"
+      "A kind is outside if it has more false alarms than a chance of one and a half times the\n"
+      "significance has but once in a thousand such tests.\n"
+      "\n"
+      "Exit codes: 0 no kind is outside, 1 some are; 2 usage, 4 an output cannot be written,\n"
+      "5 a picture of Cycles failed.");
+  command->callback([options, &exit_code] {
+    options->limits.run([&] { exit_code = run_verify_verdicts(*options); });
+  });
+}
+
 }  // namespace
 
 void add_verify(CLI::App& app, ExitCode& exit_code) {
@@ -227,10 +300,11 @@ void add_verify(CLI::App& app, ExitCode& exit_code) {
   command->require_subcommand(1);
   command->footer(
       "Begin with:\n  lobelia verify paper\n  lobelia verify stability\n"
-      "  lobelia verify references --small");
+      "  lobelia verify references --small\n  lobelia verify verdicts --small");
   add_verify_paper(*command);
   add_verify_stability(*command, exit_code);
   add_verify_references(*command, exit_code);
+  add_verify_verdicts(*command, exit_code);
 }
 
 }  // namespace lobelia::cli

@@ -26,6 +26,7 @@
 #include "records/scene.hpp"
 #include "records/shader_check.hpp"
 #include "records/stability.hpp"
+#include "records/verdicts.hpp"
 
 namespace lobelia::records {
 namespace {
@@ -42,7 +43,8 @@ constexpr auto kKinds =
              ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
              FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
              LobeSearch, Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
-             Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
+             Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability,
+             VerifyVerdicts>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -121,7 +123,8 @@ const Struct& detail::find_struct(const std::type_info& type) {
           define_highlight_tables, define_lobe_search_tables,  define_model_tables,
           define_page_tables,      define_paper_tables,        define_profile_tables,
           define_project_tables,   define_render_tables,       define_result_tables,
-          define_scene_tables,     define_shader_check_tables, define_stability_tables})
+          define_scene_tables,     define_shader_check_tables, define_stability_tables,
+          define_verdict_tables})
       define(all);
     return all;
   }();

@@ -1,0 +1,91 @@
+// How often pictures with noise are called different, rightly and wrongly.
+#include "studies/verdicts/verdicts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "studies/verdicts/report.hpp"
+#include "tests/more_samples.hpp"
+
+namespace lobelia::verdicts {
+namespace {
+
+using ::testing::HasSubstr;
+
+const records::VerdictsOfChange& of(const records::VerdictCell& cell, std::string_view change) {
+  return *std::ranges::find(cell.changes, change, &records::VerdictsOfChange::change);
+}
+
+TEST(Verdicts, KeepThePromisedRateOfFalseAlarmsAndFindWhatIsThirtyPercentDimmer) {
+  Options options;
+  options.small = true;
+  options.seeds = 6 * more_samples();
+  // Where one pair in ten may be a false alarm, few pairs tell more.
+  options.significance = 0.1;
+  options.noises = {Noise::kColours, Noise::kGrey, Noise::kGamma, Noise::kFireflies};
+  const records::VerifyVerdicts found = measure(options, [](double) {});
+  ASSERT_EQ(found.cells.size(), 8u);
+  for (const records::VerdictCell& cell : found.cells) {
+    EXPECT_TRUE(cell.holds) << cell.noise << " " << of(cell, "").different;
+    for (const records::VerdictsOfChange& change : cell.changes)
+      EXPECT_EQ(change.same + change.undecided + change.different, options.seeds);
+    if (cell.noise == "gamma" && cell.replicates == 4) {
+      EXPECT_EQ(of(cell, "30 % dimmer").different, options.seeds);
+    }
+  }
+}
+
+TEST(Verdicts, PicturesOfOneCellHaveOneExpectationAndDifferFromSeedToSeed) {
+  for (const Noise noise : {Noise::kColours, Noise::kGamma, Noise::kFireflies, Noise::kRenders}) {
+    const Cell cell{noise, 16, 4, 2};
+    const Image one = picture_of(cell, 1, nullptr), again = picture_of(cell, 1, nullptr),
+                other = picture_of(cell, 2, nullptr);
+    EXPECT_TRUE(std::ranges::equal(one.values(), again.values()));
+    EXPECT_FALSE(std::ranges::equal(one.values(), other.values()));
+    // The means over many pictures of two sets of seeds agree within their error.
+    double sum = 0, squares = 0;
+    constexpr int kPictures = 200;
+    for (int k = 0; k < kPictures; ++k) {
+      double apart = 0;
+      const Image a = picture_of(cell, std::uint64_t(10 + 2 * k), nullptr),
+                  b = picture_of(cell, std::uint64_t(11 + 2 * k), nullptr);
+      for (std::size_t i = 0; i < a.values().size(); ++i)
+        apart += double(a.values()[i]) - double(b.values()[i]);
+      sum += apart;
+      squares += apart * apart;
+    }
+    EXPECT_LT(std::abs(sum), 4 * std::sqrt(squares)) << kNoiseNames[std::size_t(noise)];
+  }
+}
+
+TEST(VerdictReport, NamesWhatIsOutsideAndDrawsACurveForEachCell) {
+  records::VerifyVerdicts verdicts;
+  verdicts.significance = 0.01;
+  verdicts.seeds = 100;
+  verdicts.outside = 1;
+  verdicts.left_out = "Blender is not installed";
+  verdicts.cells = {
+      {"grey", 48, 16, 2, {{"", 0, 100, 90, 9, 1}, {"5 % dimmer", 0.05, 100, 0, 30, 70}}, 6, true},
+      {"grey",
+       96,
+       16,
+       2,
+       {{"", 0, 100, 0, 91, 9}, {"5 % dimmer", 0.05, 100, 0, 0, 100}},
+       6,
+       false}};
+  const std::string text = report_text(verdicts);
+  EXPECT_THAT(text, HasSubstr("OUTSIDE 9 of 100"));
+  EXPECT_THAT(text, HasSubstr("70 of 100"));
+  EXPECT_THAT(text, HasSubstr("10 false alarms in 200 pairs"));
+  EXPECT_THAT(text, HasSubstr("cycles: left out, Blender is not installed"));
+  const auto drawn = charts(verdicts);
+  ASSERT_EQ(drawn.size(), 1u);
+  ASSERT_EQ(drawn[0].series.size(), 2u);
+  EXPECT_EQ(drawn[0].series[0].x, (std::vector{0.0, 0.05}));
+  EXPECT_EQ(drawn[0].series[0].y, (std::vector{0.01, 0.7}));
+}
+
+}  // namespace
+}  // namespace lobelia::verdicts
