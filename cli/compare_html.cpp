@@ -28,7 +28,6 @@ namespace lobelia::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using gallery::CellStatus;
 
 /// "a", "b", ...: a set's name in files and links.
 std::string set_name(std::size_t set) {
@@ -36,26 +35,20 @@ std::string set_name(std::size_t set) {
   return set < kLetters ? std::string(1, char('a' + set)) : fmt::format("set{}", set + 1);
 }
 
-CellStatus status_of(Verdict verdict) {
-  return is_pass(verdict)                 ? CellStatus::kPass
-         : verdict == Verdict::kUndecided ? CellStatus::kUndecided
-                                          : CellStatus::kDiffers;
-}
-
 /// A row of the pairing with what was found of it.
 struct Judged {
   std::size_t row = 0;
   std::vector<const PairReport*> pairs;
-  CellStatus status = CellStatus::kPass;
+  Outcome outcome = Outcome::kPass;
   double excess = 0;
 };
 
 /// Lower is worse.
-int rank(CellStatus status) {
-  constexpr CellStatus kWorstFirst[] = {CellStatus::kFailed,    CellStatus::kMissing,
-                                        CellStatus::kDiffers,   CellStatus::kUndecided,
-                                        CellStatus::kUnchecked, CellStatus::kPass};
-  return int(std::ranges::find(kWorstFirst, status) - std::begin(kWorstFirst));
+int rank(Outcome outcome) {
+  constexpr Outcome kWorstFirst[] = {Outcome::kError,   Outcome::kMissing,   Outcome::kNonFinite,
+                                     Outcome::kDiffers, Outcome::kUndecided, Outcome::kKnown,
+                                     Outcome::kExtra,   Outcome::kPass};
+  return int(std::ranges::find(kWorstFirst, outcome) - std::begin(kWorstFirst));
 }
 
 /// All rows, the worst first.
@@ -67,17 +60,17 @@ std::vector<Judged> judge_rows(const Pairing& pairing, const SetReport& report) 
     const bool has_reference = !pairing.references_of(pairing.rows[i]).empty();
     for (std::size_t set = 0; set < files.size(); ++set)
       if (!pairing.is_reference(set) && files[set].empty() == has_reference)
-        rows[i].status = has_reference ? CellStatus::kMissing : CellStatus::kUnchecked;
+        rows[i].outcome = has_reference ? Outcome::kMissing : Outcome::kExtra;
   }
   for (const PairReport& pair : report.pairs) {
     Judged& row = rows[pair.row];
     row.pairs.push_back(&pair);
-    const CellStatus status = pair.comparison ? status_of(pair.verdict()) : CellStatus::kFailed;
-    if (rank(status) < rank(row.status)) row.status = status;
+    const Outcome outcome = outcome_of(pair);
+    if (rank(outcome) < rank(row.outcome)) row.outcome = outcome;
     if (pair.comparison) row.excess = std::max(row.excess, excess(pair));
   }
   std::ranges::stable_sort(rows, [](const Judged& p, const Judged& q) {
-    return std::pair(rank(p.status), -p.excess) < std::pair(rank(q.status), -q.excess);
+    return std::pair(rank(p.outcome), -p.excess) < std::pair(rank(q.outcome), -q.excess);
   });
   return rows;
 }
@@ -149,7 +142,8 @@ class ReportWriter {
       if (!pairing_.is_reference(set)) add_set(farm, set);
     for (const Judged& judged : rows_) {
       const PictureRow& row = pairing_.rows[judged.row];
-      records::FarmCell cell{plain_id(row.name), std::string(info(judged.status).name), {}};
+      records::FarmCell cell{
+          plain_id(row.name), std::string(info(gallery::status_of(judged.outcome)).name), {}};
       for (std::size_t i = 0; i < farm.axes.size(); ++i)
         cell.axes.emplace_back(farm.axes[i].name, pairing_.fields.size() < 2
                                                       ? printable_path(row.name)
@@ -171,7 +165,7 @@ class ReportWriter {
     gallery::CheckedCell& cell = made.cell;
     cell.id = entry.id;
     cell.hub = set_name(kReferenceSet);
-    cell.status = judged.status;
+    cell.status = gallery::status_of(judged.outcome);
     cell.has_record = true;
     for (const PairReport* pair : judged.pairs)
       if (pair->comparison)
@@ -322,6 +316,8 @@ void write_html(const HtmlReport& html, const CompareJob& job, const Pairing& pa
   ReportWriter writer(job, pairing, report);
   gallery::Report site;
   site.farm = writer.farm(html, options.metrics);
+  for (const auto& [outcome, number, words] : counted_outcomes(report))
+    site.farm.counts.emplace_back(number, words);
   site.cell = [&](const gallery::CellEntry& entry) { return writer.cell(entry); };
   const bool one = is_one_pair(pairing);
   site.files[one ? "comparison.json" : "comparison-set.json"] =

@@ -229,7 +229,7 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
 void print_set(const SetReport& report, const PrintChoice& choice) {
   const auto line = [&](std::string_view what, std::optional<Problem::Weight> weight,
                         const std::string& name, const std::string& why) {
-    fmt::print("  {}{}{}{}\n", painted(fmt::format("{:<12}", what), weight, choice.colour),
+    fmt::print("  {}{}{}{}\n", painted(fmt::format("{:<11} ", what), weight, choice.colour),
                printable_path(name), why.empty() ? "" : ": ", printable_path(why));
   };
   const std::vector<Problem> found = problems(report);
@@ -259,8 +259,6 @@ void print_set(const SetReport& report, const PrintChoice& choice) {
     fmt::print("not compared, in {} of the pairs: {}\n", left.pairs, to_text(left.all));
   if (report.passed_over > 0)
     fmt::print("{} files are no pictures, or do not fit the pattern\n", report.passed_over);
-  if (!report.not_followed.empty())
-    fmt::print("{} links to folders elsewhere were not followed\n", report.not_followed.size());
 }
 
 }  // namespace lobelia::cli

@@ -132,9 +132,9 @@ void write_cell_changes(Html& html, const ShownFarm& farm, const History& histor
   if (past.change.was) {
     const Tag line(html, "p");
     html.text("Before: ");
-    write_status(html, *past.change.was);
+    write_status(html, farm.words_of(*past.change.was));
     html.text(". Now: ");
-    write_status(html, cell.status);
+    write_status(html, farm.words_of(cell.status));
     html.text(".");
   }
   if (past.before && !past.before->unreadable.empty())

@@ -113,7 +113,7 @@ void write_flaws(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
     const Tag list(html, "ul", {{"class", "flaws"}});
     for (const Flaw& flaw : cell.flaws) {
       const Tag item(html, "li");
-      write_status(html, flaw.status);
+      write_status(html, info(flaw.status));
       html.text(" ");
       html.text(flaw.message);
     }
@@ -167,9 +167,9 @@ void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell,
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
     const Tag line(html, "p");
-    write_status(html, cell.status);
+    write_status(html, farm.words_of(cell.status));
     html.text(" ");
-    html.text(farm.is_report ? info(cell.status).of_pair : info(cell.status).meaning);
+    html.text(farm.words_of(cell.status).meaning);
   }
   if (past) write_change(html, history, *past);
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);

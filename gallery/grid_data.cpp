@@ -124,7 +124,7 @@ records::GridPage frame_of(const ShownFarm& farm) {
   const GridLayout layout = lay_out(farm);
   page.layout = {layout.rows, layout.groups, layout.columns};
   for (const CellStatus status : kWorstFirst) {
-    const StatusInfo& s = info(status);
+    const StatusInfo s = farm.words_of(status);
     page.statuses.push_back({std::string(s.name), std::string(s.word), std::string(s.mark)});
   }
   return page;

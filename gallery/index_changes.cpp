@@ -33,7 +33,7 @@ void write_gone(Html& html, std::span<const CellEntry* const> cells) {
   for (const CellEntry* cell : cells) {
     const Tag item(html, "li");
     html.text(cell->title() + ", which was ");
-    write_status(html, cell->status);
+    write_status(html, info(cell->status));
   }
 }
 

@@ -121,7 +121,8 @@ class GridWriter {
   }
 
   void write_cell(const CellSummary& cell) {
-    const std::string words = cell.entry->label + ": " + std::string(info(cell.status).word);
+    const std::string words =
+        cell.entry->label + ": " + std::string(farm_.words_of(cell.status).word);
     {
       const Tag link(html_, "a", {{"href", cell_link(site_, cell.entry->id)}});
       write_picture(cell, cell.picture, words);
@@ -130,7 +131,7 @@ class GridWriter {
                       "no picture");
       }
     }
-    write_status(html_, cell.status);
+    write_status(html_, farm_.words_of(cell.status));
     write_change(cell);
     write_figures(cell);
   }
@@ -158,7 +159,7 @@ class GridWriter {
       }
       html_.element("a", {{"href", href}, {"class", "cell-name"}}, cell.entry->label);
       html_.text(" ");
-      write_status(html_, cell.status);
+      write_status(html_, farm_.words_of(cell.status));
       write_change(cell);
       write_figures(cell);
     }
@@ -185,7 +186,7 @@ class GridWriter {
     for (const auto& [status, difference, place] : ranks) {
       const CellSummary& cell = cells_[std::size_t(place)];
       const Tag item(html_, "li");
-      write_status(html_, cell.status);
+      write_status(html_, farm_.words_of(cell.status));
       html_.text(" " + cell.entry->title() + " ");
       write_figures(cell);
     }
@@ -221,7 +222,7 @@ class GridWriter {
       const Tag item(html_, "li");
       html_.element("a", {{"href", cell_link(site_, entry->id)}}, entry->id);
       html_.text(" ");
-      write_status(html_, cells_[entry - farm_.cells.data()].status);
+      write_status(html_, farm_.words_of(cells_[entry - farm_.cells.data()].status));
     }
   }
 

@@ -26,18 +26,23 @@ std::string reference_titles(const ShownFarm& farm) {
 
 void write_counts(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag list(html, "ul", {{"class", "counts"}});
-  {
+  const auto write = [&](std::size_t count, const std::string& words) {
     const Tag item(html, "li");
-    html.element("strong", count_text(static_cast<double>(cells.size())));
-    html.text(fmt::format(" {}{}", farm.noun(), cells.size() == 1 ? "" : "s"));
+    html.element("strong", count_text(double(count)));
+    html.text(" " + words);
+  };
+  if (farm.is_report) {
+    for (const auto& [count, words] : farm.counts) write(count, words);
+    return;
   }
+  write(cells.size(), fmt::format("{}{}", farm.noun(), cells.size() == 1 ? "" : "s"));
   for (const CellStatus status : kCellStatuses) {
     const auto count = std::ranges::count(cells, status, &CellSummary::status);
     if (count == 0 && status != CellStatus::kPass) continue;
     const Tag item(html, "li");
     html.element("strong", count_text(static_cast<double>(count)));
     html.text(" ");
-    write_status(html, status);
+    write_status(html, info(status));
   }
 }
 
@@ -123,10 +128,13 @@ void write_findings(Html& html, const SiteFrame& site, const ShownFarm& farm,
     html.text(worst->nearest.share() > 1 ? "Farthest beyond its limit: "
                                          : "Nearest to its limit: ");
     write_cell_link(html, site, *worst->entry);
-    html.text(fmt::format(", which differs from {} by {} of the peak; {} may be.",
-                          farm.engine_title(worst->nearest.engine),
-                          percent_text(worst->nearest.difference),
-                          percent_text(worst->nearest.limit)));
+    const std::string engine = farm.engine_title(worst->nearest.engine);
+    // A report's hub is the reference, which judges the others.
+    html.text(fmt::format(
+        "{} by {} of the peak; {} may be.",
+        farm.is_report ? fmt::format(": {} differs from {}", engine, farm.engine_title(farm.hub))
+                       : fmt::format(", which differs from {}", engine),
+        percent_text(worst->nearest.difference), percent_text(worst->nearest.limit)));
   }
   for (const Finding& finding : findings) {
     const Tag item(html, "li");
@@ -254,9 +262,9 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
       const Tag item(html, "div");
       {
         const Tag term(html, "dt");
-        write_status(html, status);
+        write_status(html, farm.words_of(status));
       }
-      html.element("dd", farm.is_report ? info(status).of_pair : info(status).meaning);
+      html.element("dd", farm.words_of(status).meaning);
     }
     for (const Change change : kChanges) {
       const auto is_it = [&](const CellSummary& cell) {
@@ -306,12 +314,12 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
   }
 }
 
-void write_attention_list(Html& html, const SiteFrame& site,
+void write_attention_list(Html& html, const SiteFrame& site, const ShownFarm& farm,
                           std::span<const CellSummary* const> cells) {
   const Tag list(html, "ul");
   for (const CellSummary* cell : cells) {
     const Tag item(html, "li");
-    write_status(html, cell->status);
+    write_status(html, farm.words_of(cell->status));
     html.text(" ");
     write_cell_link(html, site, *cell->entry);
     for (std::size_t i = 0; i < std::min(cell->reasons.size(), kMaxReasons); ++i)
@@ -321,16 +329,19 @@ void write_attention_list(Html& html, const SiteFrame& site,
   }
 }
 
-void write_attention(Html& html, const SiteFrame& site, const std::vector<CellSummary>& cells) {
+void write_attention(Html& html, const SiteFrame& site, const ShownFarm& farm,
+                     const std::vector<CellSummary>& cells) {
   std::vector<const CellSummary*> first;
+  // In a farm it is not done yet, in a report it is gone.
   for (const CellSummary& cell : cells)
-    if (needs_a_look(cell.status)) first.push_back(&cell);
+    if (needs_a_look(cell.status) || (farm.is_report && cell.status == CellStatus::kMissing))
+      first.push_back(&cell);
   std::ranges::stable_sort(first, {},
                            [](const CellSummary* cell) { return rank_of(cell->status); });
   if (first.empty()) return;
   const Tag section(html, "section", {{"class", "attention"}, {"aria-labelledby", "attention"}});
   html.element("h2", {{"id", "attention"}}, "Look at these first");
-  write_folded(html, first, [&](auto some) { write_attention_list(html, site, some); });
+  write_folded(html, first, [&](auto some) { write_attention_list(html, site, farm, some); });
 }
 
 }  // namespace
@@ -353,7 +364,7 @@ std::string index_page(const SiteFrame& site, const ShownFarm& farm,
     if (!site.is_packed) write_pair(html, farm, worst);
     write_findings(html, site, farm, worst, findings);
   }
-  write_attention(html, site, cells);
+  write_attention(html, site, farm, cells);
   write_grid(html, site, farm, cells);
   write_legend(html, farm, cells);
   write_making(html, farm);

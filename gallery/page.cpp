@@ -108,9 +108,8 @@ void write_badge(Html& html, std::string_view style, std::string_view mark, std:
   html.text(fmt::format(" {}", word));
 }
 
-void write_status(Html& html, CellStatus status) {
-  const StatusInfo& s = info(status);
-  write_badge(html, s.name, s.mark, s.word);
+void write_status(Html& html, const StatusInfo& status) {
+  write_badge(html, status.name, status.mark, status.word);
 }
 
 void write_command(Html& html, const std::string& command) {

@@ -53,7 +53,7 @@ std::string link_to(std::initializer_list<std::string_view> parts);
 std::string cell_link(const SiteFrame& site, const std::string& id);
 
 void write_badge(Html& html, std::string_view style, std::string_view mark, std::string_view word);
-void write_status(Html& html, CellStatus status);
+void write_status(Html& html, const StatusInfo& status);
 /// A command to copy.
 void write_command(Html& html, const std::string& command);
 /// A sentence in place of something that is missing.

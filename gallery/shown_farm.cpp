@@ -61,6 +61,14 @@ std::string first_word(const std::string& title) { return title.substr(0, title.
 
 }  // namespace
 
+std::string_view ShownFarm::noun() const {
+  if (!is_report) return "cell";
+  const bool are_pairs = std::ranges::none_of(cells, [](const CellEntry& cell) {
+    return cell.status == CellStatus::kMissing || cell.status == CellStatus::kUnchecked;
+  });
+  return are_pairs ? "pair" : "name";
+}
+
 std::string ShownFarm::engine_title(const std::string& name) const {
   const auto at = std::ranges::find(record.engines, name, &records::FarmEngine::name);
   return at == record.engines.end() ? name : at->title;

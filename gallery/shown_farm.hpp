@@ -37,8 +37,14 @@ struct ShownFarm {
   std::vector<CellEntry> cells;  ///< in the record's order
   std::map<std::vector<int>, std::size_t> cell_at;  ///< the first cell at each position
 
-  /// "cell", or "pair" of a report.
-  std::string_view noun() const { return is_report ? "pair" : "cell"; }
+  /// Of a report: its counts in the words of the summary, such as 20 and "differ".
+  std::vector<std::pair<std::size_t, std::string>> counts = {};
+  /// "cell"; of a report "pair", or where a picture has no partner "name".
+  std::string_view noun() const;
+  /// A status in the words for a cell, or for a report's pair.
+  StatusInfo words_of(CellStatus status) const {
+    return is_report ? info_of_pair(status) : info(status);
+  }
   /// The engine's title, or its name if farm.json does not know it.
   std::string engine_title(const std::string& name) const;
   /// The title's first word if that tells the engines apart, else the title.

@@ -227,7 +227,7 @@ void write_case(Html& html, const records::StabilityOfCase& one) {
                    ? fmt::format("{:.0f} %", 100 * std::min(one.of_bound, 1e6))
                    : "–");
   const Tag verdict(html, "td");
-  write_status(html, one.outside > 0 ? CellStatus::kDiffers : CellStatus::kPass);
+  write_status(html, info(one.outside > 0 ? CellStatus::kDiffers : CellStatus::kPass));
 }
 
 void write_group(Html& html, const VerifyStability& data, const std::string& group,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -39,6 +40,14 @@ double excess(const Comparison& comparison) {
   return worst;
 }
 
+using OutcomeCounts = std::array<std::size_t, records::kOutcomes>;
+
+OutcomeCounts count_outcomes(const SetReport& report) {
+  OutcomeCounts counts{};
+  for (const NameOutcome& one : outcomes(report)) ++counts[std::size_t(one.outcome)];
+  return counts;
+}
+
 }  // namespace
 
 Verdict PairReport::verdict() const {
@@ -72,6 +81,48 @@ std::optional<Problem::Weight> weight_of(const PairReport& pair) {
                                                  : Problem::Weight::kFails;
 }
 
+Outcome outcome_of(const PairReport& pair) {
+  if (!pair.comparison) return Outcome::kError;
+  if (pair.is_excused()) return Outcome::kKnown;
+  switch (pair.verdict()) {
+    case Verdict::kPass:
+    case Verdict::kSame:
+      return Outcome::kPass;
+    case Verdict::kUndecided:
+      return Outcome::kUndecided;
+    case Verdict::kNonFinite:
+      return Outcome::kNonFinite;
+    default:
+      return Outcome::kDiffers;
+  }
+}
+
+std::string_view NameOutcome::word() const {
+  return pair && pair->comparison && outcome != Outcome::kKnown ? verdict_name(pair->verdict())
+                                                                : info(outcome).name;
+}
+
+std::string NameOutcome::why() const {
+  if (!pair) {  // the sentence as a reason: "there is no reference"
+    std::string reason(info(outcome).meaning);
+    reason.front() = char(std::tolower(reason.front()));
+    reason.pop_back();
+    return reason;
+  }
+  return pair->comparison ? why_not_pass(*pair) : pair->error;
+}
+
+std::vector<NameOutcome> outcomes(const SetReport& report) {
+  std::vector<NameOutcome> list;
+  for (const PairReport& pair : report.pairs) list.push_back({outcome_of(pair), pair.name, &pair});
+  for (const auto& [outcome, names] : {std::pair(Outcome::kMissing, &report.missing),
+                                       {Outcome::kExtra, &report.extra},
+                                       {Outcome::kNotFollowed, &report.not_followed},
+                                       {Outcome::kMisnamed, &report.misnamed}})
+    for (const std::string& name : *names) list.push_back({outcome, name});
+  return list;
+}
+
 std::vector<Problem> problems(const SetReport& report) {
   using Weight = Problem::Weight;
   std::vector<Problem> list;
@@ -79,14 +130,11 @@ std::vector<Problem> problems(const SetReport& report) {
                        std::string why, const PairReport* pair = nullptr) {
     list.push_back({weight, what, name, std::move(why), pair});
   };
-  for (const PairReport& pair : report.pairs)
-    if (!pair.comparison) add(Weight::kFails, "error", pair.name, pair.error);
-  for (const std::string& name : report.missing)
-    add(Weight::kFails, "missing", name, "there is only a reference");
-  for (const std::string& name : report.not_followed)
-    add(Weight::kFails, "link", name, std::string(kNotFollowed));
-  for (const std::string& name : report.misnamed)
-    add(Weight::kFails, "misnamed", name, std::string(kMisnamed));
+  const std::vector<NameOutcome> all = outcomes(report);
+  for (const Outcome outcome :
+       {Outcome::kError, Outcome::kMissing, Outcome::kNotFollowed, Outcome::kMisnamed})
+    for (const NameOutcome& one : all)
+      if (one.outcome == outcome) add(Weight::kFails, one.word(), one.name, one.why());
   std::vector<const PairReport*> worst_first;
   for (const PairReport& pair : report.pairs)
     if (pair.comparison) worst_first.push_back(&pair);
@@ -96,11 +144,11 @@ std::vector<Problem> problems(const SetReport& report) {
   for (const PairReport* pair : worst_first) {
     const auto weight = weight_of(*pair);
     if (!weight) continue;
-    std::string why = why_not_pass(*pair);
+    const NameOutcome one{outcome_of(*pair), pair->name, pair};
+    std::string why = one.why();
     if (const std::string known = known_text(*pair); !known.empty())
       why = fmt::format("{} ({})", why, known);
-    add(*weight, pair->is_excused() ? "known" : verdict_name(pair->verdict()), pair->name,
-        std::move(why), pair);
+    add(*weight, one.word(), pair->name, std::move(why), pair);
   }
   for (const PairReport* pair : worst_first) {
     for (const LimitResult& limit : pair->comparison->warnings)
@@ -113,41 +161,57 @@ std::vector<Problem> problems(const SetReport& report) {
       add(Weight::kNotice, "no longer", pair->name,
           fmt::format("it passes, but the project says that it is {}", known_text(*pair)), pair);
   }
-  for (const std::string& name : report.extra)
-    add(Weight::kNotice, "extra", name, "there is no reference");
+  for (const NameOutcome& one : all)
+    if (one.outcome == Outcome::kExtra)
+      add(report.missing_reference_fails ? Weight::kFails : Weight::kNotice, one.word(), one.name,
+          one.why());
+  return list;
+}
+
+std::vector<CountedOutcome> counted_outcomes(const SetReport& report) {
+  const OutcomeCounts counts = count_outcomes(report);
+  const std::size_t pairs = report.pairs.size();
+  std::vector<CountedOutcome> list{{std::nullopt, pairs, pairs == 1 ? "pair" : "pairs"}};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const records::OutcomeInfo& one = records::kOutcomeInfos[i];
+    if (counts[i] > 0 || one.is_usual) list.push_back({Outcome(i), counts[i], one.counted});
+  }
   return list;
 }
 
 records::SetSummary count(const SetReport& report) {
-  records::SetSummary counts;
-  counts.pairs = report.pairs.size();
-  // In the order of Verdict.
-  std::size_t* const of_verdict[] = {&counts.pass, &counts.differs, &counts.non_finite,
-                                     &counts.pass, &counts.differs, &counts.undecided};
-  for (const PairReport& pair : report.pairs) {
-    if (pair.known && !counts.known) counts.known = 0;
-    ++(pair.is_excused() ? *counts.known
-       : pair.comparison ? *of_verdict[std::size_t(pair.verdict())]
-                         : counts.errors);
-  }
-  counts.missing = report.missing.size();
-  counts.extra = report.extra.size();
-  counts.passed_over = report.passed_over;
-  counts.links_not_followed = report.not_followed.size();
-  if (!report.misnamed.empty()) counts.misnamed = report.misnamed.size();
-  return counts;
+  const OutcomeCounts counts = count_outcomes(report);
+  const auto of = [&](Outcome outcome) { return counts[std::size_t(outcome)]; };
+  records::SetSummary summary;
+  summary.pairs = report.pairs.size();
+  summary.pass = of(Outcome::kPass);
+  summary.differs = of(Outcome::kDiffers);
+  summary.undecided = of(Outcome::kUndecided);
+  summary.non_finite = of(Outcome::kNonFinite);
+  summary.errors = of(Outcome::kError);
+  summary.missing = of(Outcome::kMissing);
+  summary.extra = of(Outcome::kExtra);
+  summary.passed_over = report.passed_over;
+  summary.links_not_followed = of(Outcome::kNotFollowed);
+  const auto is_known = [](const PairReport& pair) { return pair.known.has_value(); };
+  if (std::ranges::any_of(report.pairs, is_known)) summary.known = of(Outcome::kKnown);
+  if (of(Outcome::kMisnamed) > 0) summary.misnamed = of(Outcome::kMisnamed);
+  return summary;
 }
 
 std::string counts_text(const SetReport& report) {
-  const records::SetSummary counts = count(report);
-  const auto some = [](std::size_t number, std::string_view what) {
-    return number > 0 ? fmt::format("{} {}, ", number, what) : "";
-  };
-  return fmt::format(
-      "{} pairs: {} pass, {} differ, {}{}{} not finite, {} not comparable; {} missing, {}{} extra",
-      counts.pairs, counts.pass, counts.differs, some(counts.known.value_or(0), "known to differ"),
-      some(counts.undecided, "undecided"), counts.non_finite, counts.errors, counts.missing,
-      some(counts.misnamed.value_or(0), "misnamed"), counts.extra);
+  std::string text;
+  std::string_view before;
+  bool of_pairs = true;
+  for (const auto& [outcome, number, words] : counted_outcomes(report)) {
+    if (outcome && of_pairs && !info(*outcome).is_pair) {
+      of_pairs = false;
+      before = "; ";
+    }
+    text += fmt::format("{}{} {}", before, number, words);
+    before = outcome ? ", " : ": ";
+  }
+  return text;
 }
 
 SetNotCompared not_compared(const SetReport& report) {
@@ -170,7 +234,8 @@ ExitCode set_exit_code(const SetReport& report) {
   const records::SetSummary counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
   const std::size_t failures = counts.differs + counts.non_finite + counts.missing +
-                               counts.links_not_followed + counts.misnamed.value_or(0);
+                               counts.links_not_followed + counts.misnamed.value_or(0) +
+                               (report.missing_reference_fails ? counts.extra : 0);
   return failures > 0           ? ExitCode::kDiffers
          : counts.undecided > 0 ? ExitCode::kUndecided
                                 : ExitCode::kSuccess;

@@ -4,6 +4,7 @@
 #include "compare/layers.hpp"
 #include "core/error.hpp"
 #include "core/sha256.hpp"
+#include "records/outcome.hpp"
 
 namespace lobelia {
 
@@ -40,16 +41,36 @@ struct SetReport {
   std::size_t passed_over = 0;                 ///< files that are not pictures
   std::vector<std::string> not_followed = {};  ///< links to folders that may hold pictures
   std::vector<std::string> misnamed = {};      ///< files that nearly are frames of a sequence
+  bool missing_reference_fails = false;        ///< `extra` are failures
 };
 
-/// The reason that such a link fails.
-inline constexpr std::string_view kNotFollowed =
-    "a link to a folder elsewhere; its pictures were not compared";
-/// The reason that such a file fails.
-inline constexpr std::string_view kMisnamed =
-    "nearly a frame of the sequence, but written in another way; it was not compared";
+using Outcome = records::Outcome;
+
+Outcome outcome_of(const PairReport& pair);
+
+/// What became of a pair or of a name.
+struct NameOutcome {
+  records::Outcome outcome;
+  std::string name;
+  const PairReport* pair = nullptr;  ///< if there are both pictures
+
+  /// The outcome's name, or the verdict's of a pair that does not pass: "different".
+  std::string_view word() const;
+  /// Why it does not pass; empty if it does.
+  std::string why() const;
+};
+/// Of all pairs in their order, then of all names without a pair. Summaries and reports follow from these.
+std::vector<NameOutcome> outcomes(const SetReport& report);
 
 records::SetSummary count(const SetReport& report);
+
+/// "1 pair", "20 differ", "0 missing": the pairs, then every outcome that there is or that is usual.
+struct CountedOutcome {
+  std::optional<records::Outcome> outcome;  ///< nothing for all pairs
+  std::size_t count = 0;
+  std::string_view words;
+};
+std::vector<CountedOutcome> counted_outcomes(const SetReport& report);
 
 /// "3 pairs: 2 pass, 1 differ, ...": the counts as a sentence.
 std::string counts_text(const SetReport& report);
@@ -68,8 +89,8 @@ double excess(const PairReport& pair);
 std::string known_text(const PairReport& pair);
 
 /// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair differs or is missing, a
-/// link was not followed, or a file is misnamed. Otherwise kUndecided if a pair is. Otherwise kSuccess: names without a
-/// reference do not fail, and neither do pairs that are excused.
+/// link was not followed, a file is misnamed, or a name without a reference fails. Otherwise kUndecided if a pair is.
+/// Otherwise kSuccess: pairs that are excused do not fail.
 ExitCode set_exit_code(const SetReport& report);
 
 /// A metric over the pairs for which it was measured.

@@ -32,30 +32,21 @@ std::string set_csv(const SetReport& report) {
   std::string text = "name,verdict,why";
   for (const std::string_view id : ids) text += fmt::format(",{}", id);
   text += "\r\n";
-  const std::string no_values(ids.size(), ',');
-  for (const PairReport& pair : report.pairs) {
-    if (!pair.comparison) {
-      text += fmt::format("{},error,{}{}\r\n", field(pair.name), field(pair.error), no_values);
-      continue;
-    }
-    std::string why = why_not_pass(pair);
-    if (pair.known) why += fmt::format("{}{}", why.empty() ? "" : "; ", known_text(pair));
-    text += fmt::format("{},{},{}", field(pair.name), verdict_name(pair.verdict()), field(why));
+  for (const NameOutcome& one : outcomes(report)) {
+    std::string why = one.why();
+    const PairReport* const pair = one.pair;
+    if (pair && pair->known) why += fmt::format("{}{}", why.empty() ? "" : "; ", known_text(*pair));
+    // A known difference is told by its reason: its verdict stays what it is.
+    const std::string_view word =
+        pair && pair->comparison ? verdict_name(pair->verdict()) : one.word();
+    text += fmt::format("{},{},{}", field(one.name), word, field(why));
     for (const std::string_view id : ids) {
-      const double* value = records::find(pair.comparison->metrics, id);
+      const double* value =
+          pair && pair->comparison ? records::find(pair->comparison->metrics, id) : nullptr;
       text += value ? fmt::format(",{}", *value) : ",";
     }
     text += "\r\n";
   }
-  for (const std::string& name : report.missing)
-    text += fmt::format("{},missing,there is only a reference{}\r\n", field(name), no_values);
-  for (const std::string& name : report.extra)
-    text += fmt::format("{},extra,there is no reference{}\r\n", field(name), no_values);
-  for (const std::string& name : report.not_followed)
-    text += fmt::format("{},not followed,{}{}\r\n", field(name), kNotFollowed, no_values);
-  for (const std::string& name : report.misnamed)
-    text +=
-        fmt::format("{},misnamed,{}{}\r\n", field(name), field(std::string(kMisnamed)), no_values);
   return text;
 }
 

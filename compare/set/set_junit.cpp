@@ -3,6 +3,7 @@
 // the figures).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -27,56 +28,65 @@ void add_outcome(pugi::xml_node one, const char* kind, std::string_view type,
   outcome.append_attribute("message") = printable_path(message).c_str();
 }
 
-void add_pair(pugi::xml_node suite, const PairReport& pair, bool skip_undecided) {
-  pugi::xml_node one = add_case(suite, pair.name, pair.seconds);
-  if (!pair.comparison) {
-    add_outcome(one, "error", "not compared", pair.error);
-    return;
+/// How JUnit has an outcome; null for a pass.
+const char* kind_of(const SetReport& report, const NameOutcome& one, bool skip_undecided) {
+  switch (one.outcome) {
+    case Outcome::kPass:
+      return nullptr;
+    case Outcome::kError:
+      return "error";
+    case Outcome::kKnown:
+      return "skipped";
+    case Outcome::kUndecided:
+      return skip_undecided ? "skipped" : "failure";
+    case Outcome::kExtra:
+      return report.missing_reference_fails ? "failure" : "skipped";
+    default:
+      return "failure";
   }
+}
+
+void add_properties(pugi::xml_node one, const Comparison& comparison) {
   pugi::xml_node properties = one.append_child("properties");
-  for (const auto& [id, value] : pair.comparison->metrics) {
+  for (const auto& [id, value] : comparison.metrics) {
     pugi::xml_node property = properties.append_child("property");
     property.append_attribute("name") = id.c_str();
     property.append_attribute("value") = fmt::format("{}", value).c_str();
   }
-  if (is_pass(pair.verdict())) return;
-  const bool skipped =
-      pair.is_excused() || (skip_undecided && pair.verdict() == Verdict::kUndecided);
-  const std::string known = known_text(pair);
-  add_outcome(one, skipped ? "skipped" : "failure", verdict_name(pair.verdict()),
-              known.empty() ? why_not_pass(pair) : known + "; " + why_not_pass(pair));
 }
 
 }  // namespace
 
 std::string set_junit(const SetReport& report, bool skip_undecided) {
-  const records::SetSummary counts = count(report);
   double seconds = 0;
   for (const PairReport& pair : report.pairs) seconds += pair.seconds;
+  const std::vector<NameOutcome> all = outcomes(report);
+  const auto count = [&](std::string_view kind) {
+    return std::ranges::count_if(all, [&](const NameOutcome& one) {
+      const char* const own = kind_of(report, one, skip_undecided);
+      return own && own == kind;
+    });
+  };
   pugi::xml_document document;
   pugi::xml_node suites = document.append_child("testsuites");
   pugi::xml_node suite = suites.append_child("testsuite");
-  const std::size_t not_looked_at =
-      counts.missing + counts.links_not_followed + counts.misnamed.value_or(0);
   for (pugi::xml_node node : {suites, suite}) {
     node.append_attribute("name") = printable_path(report.a + " against " + report.b).c_str();
-    node.append_attribute("tests") = report.pairs.size() + not_looked_at + counts.extra;
-    node.append_attribute("failures") = counts.differs + counts.non_finite + not_looked_at +
-                                        (skip_undecided ? 0 : counts.undecided);
-    node.append_attribute("errors") = counts.errors;
-    node.append_attribute("skipped") =
-        counts.extra + counts.known.value_or(0) + (skip_undecided ? counts.undecided : 0);
+    node.append_attribute("tests") = all.size();
+    node.append_attribute("failures") = count("failure");
+    node.append_attribute("errors") = count("error");
+    node.append_attribute("skipped") = count("skipped");
     node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
   }
-  for (const PairReport& pair : report.pairs) add_pair(suite, pair, skip_undecided);
-  for (const std::string& name : report.missing)
-    add_outcome(add_case(suite, name, 0), "failure", "missing", "there is only a reference");
-  for (const std::string& name : report.extra)
-    add_outcome(add_case(suite, name, 0), "skipped", "extra", "there is no reference");
-  for (const std::string& name : report.not_followed)
-    add_outcome(add_case(suite, name, 0), "failure", "not followed", std::string(kNotFollowed));
-  for (const std::string& name : report.misnamed)
-    add_outcome(add_case(suite, name, 0), "failure", "misnamed", std::string(kMisnamed));
+  for (const NameOutcome& one : all) {
+    pugi::xml_node added = add_case(suite, one.name, one.pair ? one.pair->seconds : 0);
+    if (one.pair && one.pair->comparison) add_properties(added, *one.pair->comparison);
+    const char* const kind = kind_of(report, one, skip_undecided);
+    if (!kind) continue;
+    const std::string known = one.pair ? known_text(*one.pair) : "";
+    add_outcome(added, kind, one.word(),
+                known.empty() ? one.why() : fmt::format("{}; {}", known, one.why()));
+  }
   std::ostringstream stream;
   document.save(stream, "  ");
   return stream.str();

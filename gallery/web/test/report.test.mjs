@@ -47,7 +47,8 @@ const names = async (page) => {
 
 test('lists all pairs, the worst first, each with its pictures and a sentence', async () => {
   const page = await open(browser, fileUrl(site) + 'index.html');
-  assert.equal(await page.locator('.count').textContent(), 'showing 7 of 7 pairs');
+  assert.equal(await page.locator('.count').textContent(), 'showing 7 of 7 names');
+  assert.equal((await page.locator('.counts').textContent()).replace(/\s+/g, ''), '5pairs2pass3differ0notfinite0errors1missing1extra');
   const list = await names(page);
   assert.deepEqual(list.slice(0, 2), ['lost.exr', 'moved.exr'], 'what is missing, and then what is the most times over its limit');
   assert.deepEqual(list.slice(2, 4).sort(), ['dim.exr', kHostile].sort());
@@ -101,7 +102,7 @@ test('one file holds everything: it asks for nothing else, and links lead from p
   await says(page, 'h1', /^dim\.exr$/);
   assert.match(await address(page), /mode=diff/, 'the way of looking comes along');
   await page.locator('a.site-title').click();
-  await says(page, '.count', /showing 7 of 7 pairs/);
+  await says(page, '.count', /showing 7 of 7 names/);
   assert.deepEqual([...page.requested].filter((url) => !url.startsWith('data:')).map((url) => url.split('#')[0]).filter((url) => url !== file), []);
   const again = await open(browser, linked);
   await says(again, 'h1', /^moved\.exr$/);

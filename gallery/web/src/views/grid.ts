@@ -98,7 +98,7 @@ class GridView {
     addEventListener('pagehide', () => history.replaceState({ grid: [box.scrollTop, box.scrollLeft] }, ''));
   }
 
-  private isReport(): boolean { return this.data.noun === 'pair'; }
+  private isReport(): boolean { return this.data.noun !== 'cell'; }
 
   /** One axis, too long for a line. */
   private isList(): boolean { return this.data.layout.columns < 0; }
