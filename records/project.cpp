@@ -17,6 +17,8 @@
 namespace lobelia::records {
 namespace {
 
+constexpr std::string_view kMissingReference[] = {"notice", "fail"};
+
 /// "2026-02-30" is no day.
 bool is_day(const std::string& text) {
   int year = 0, month = 0, day = 0;
@@ -174,6 +176,7 @@ void define_project_tables(Tables& tables) {
         t.key("referenceVariance", "as --b-variance, likewise");
         t.key("judgedSamples", "as --a-samples").at_least(1);
         t.key("referenceSamples", "as --b-samples").at_least(1);
+        t.key("missingReference", "as --missing-reference").one_of(kMissingReference);
         t.key("rules", "the last that fits a pair counts most");
         t.check(contradiction_of_project);
       });

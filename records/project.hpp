@@ -31,6 +31,7 @@ struct Project {
   std::optional<bool> ignore_alpha;
   std::string judged_variance, reference_variance;
   std::optional<double> judged_samples, reference_samples;
+  std::string missing_reference;
   std::vector<ProjectRule> rules;
   std::vector<KnownDifference> known;
 };

@@ -38,6 +38,15 @@ std::vector<CompareOption> options_of_sets() {
        "fits best; may be given again"},
       {"reference-floor", &Choice::reference_floor, For::kSets, "Options", "C",
        "A second reference: how far it is from B is shown beside how far A is"},
+      {.name = "missing-reference",
+       .place = &Choice::missing_reference,
+       .applies_to = For::kSets,
+       .heading = "Verdict",
+       .value = "",
+       .meaning = "What a picture without a reference is: named, or a failure as a reference "
+                  "without a picture always is",
+       .words = {"notice", "fail"},
+       .usual = "notice"},
       {"layer", &Choice::layer, For::kFiles, "Layers", "NAME",
        "Compare this layer of both files: a prefix of channels, an EXR part, a view of a stereo "
        "EXR, or one channel; diffuse=ViewLayer.DiffDir where the files call it differently"},

@@ -19,6 +19,7 @@ struct CompareChoice {
       given;  ///< files, folders or sequences: the judged one, the reference, further judged ones
   std::string pairs, pattern, sets, project, reference_floor;
   std::vector<std::string> also_accept;
+  std::string missing_reference;  ///< empty: "notice"
 
   std::string layer;
   bool all_layers = false, ignore_alpha = false;

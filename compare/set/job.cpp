@@ -87,6 +87,7 @@ CompareJob make_job(CompareChoice choice, const ReadScene& read_scene) {
   if (!choice.project.empty()) apply_project(choice, job);
   job.pictures = pictures_of(choice);
   job.c = choice.reference_floor;
+  job.missing_reference_fails = choice.missing_reference == "fail";
   job.scene = choice.scene;
   job.ocio = choice.ocio;
   job.layers = {parse_layer_names(choice.layer), choice.all_layers, choice.ignore_alpha};

@@ -35,7 +35,8 @@ struct CompareJob {
   PictureParts parts;
   std::vector<PairRule> rules;  ///< the last that fits a pair counts most
   std::vector<records::KnownDifference> known;
-  std::string today;        ///< "2027-01-31", in UTC
+  std::string today;  ///< "2027-01-31", in UTC
+  bool missing_reference_fails = false;
   bool hash_files = false;  ///< for PairReport::hashes
 };
 

@@ -112,6 +112,7 @@ void fill_in(const records::Project& project, CompareChoice& choice, CompareJob&
   if (choice.layer.empty() && !choice.all_layers) choice.layer = project.layer;
   if (choice.scene.empty()) choice.scene = from(project.scene);
   fill_in_noise(project, from, choice);
+  if (choice.missing_reference.empty()) choice.missing_reference = project.missing_reference;
   choice.ignore_alpha = choice.ignore_alpha || project.ignore_alpha.value_or(false);
   for (std::size_t i = 0; i < project.rules.size(); ++i)
     job.rules.push_back(rule_of(project.rules[i], i, from));

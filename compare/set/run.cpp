@@ -248,6 +248,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
   report.passed_over = pairing.passed_over;
   report.not_followed = pairing.not_followed;
   report.misnamed = pairing.misnamed;
+  report.missing_reference_fails = job.missing_reference_fails;
   for (std::size_t row = 0; row < pairing.rows.size(); ++row)
     for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
       const PictureRow& pictures = pairing.rows[row];

@@ -41,6 +41,9 @@ TEST_F(CiScript, passes_and_fails_as_lobelia_compare) {
   EXPECT_EQ(compare("a b r", "GITHUB_STEP_SUMMARY=summary ").exit_code, 1);
   EXPECT_EQ(read(installed_tree().work() / "summary"), "Lobelia: differs\n");
   EXPECT_EQ(compare("a b r --fail max_rel_peak=1 --no-default-limits").exit_code, 0);
+  ASSERT_EQ(installed_tree().shell("cp b/x.exr a/x.exr && cp b/x.exr a/new.exr").exit_code, 0);
+  EXPECT_EQ(compare("a b r").exit_code, 1) << "nothing judged new.exr";
+  EXPECT_EQ(compare("a b r --missing-reference notice").exit_code, 0);
 }
 
 TEST_F(CiScript, says_how_it_is_used) {
