@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -42,6 +43,14 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
     throw Error(ExitCode::kOutput,
                 fmt::format("{}: cannot write: not a regular file", path.string()));
   return target;
+}
+
+/// Descriptors that finished files may hold until all are renamed.
+std::size_t most_open_together() {
+  constexpr rlim_t kFew = 16, kMany = 256;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return kFew;
+  return std::clamp(limit.rlim_cur / 4, kFew, kMany);
 }
 
 thread_local int flushes_later = 0;  ///< FlushLater objects of the thread
@@ -233,18 +242,23 @@ void PartFile::flush() {
   write_waiting();
   // Without fsync a full disk may be noticed only after the rename.
   if (flushes_later == 0 && ::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
-  if (::close(file_.release()) != 0) fail(errno);
+}
+
+void PartFile::close() {
+  if (file_ && ::close(file_.release()) != 0) fail(errno);
 }
 
 void PartFile::finish() {
   if (FilesTogether* const together = FilesTogether::current_) {
     const std::lock_guard lock(together->mutex_);
-    // A few stay open until commit(), because flushing several at once takes no longer than one.
-    constexpr std::size_t kMostOpen = 16;
-    if (together->finished_.size() >= kMostOpen) flush();
-    if (file_) {
+    // They stay open until commit(): flushing several at once takes no longer than one, and their locks tell those who
+    // cannot see this process that they are not abandoned.
+    if (together->finished_.size() < most_open_together()) {
       write_waiting();
       ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);  // begins to write it
+    } else {
+      flush();
+      close();
     }
     waiting_.shrink_to_fit();  // there may be thousands
     together->finished_.push_back(std::move(*this));
@@ -252,6 +266,7 @@ void PartFile::finish() {
   }
   flush();
   if (::rename(part_.path().c_str(), target_.c_str()) != 0) fail(errno);
+  close();
 }
 
 FlushLater::FlushLater() { ++flushes_later; }
@@ -274,6 +289,7 @@ void FilesTogether::commit() {
   for (PartFile& file : finished_) {
     if (::rename(file.part_.path().c_str(), file.target_.c_str()) != 0)
       output_error(file.path_, errno);
+    file.close();
     file.part_.forget();
   }
   finished_.clear();
@@ -295,7 +311,7 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
   const fs::path target = final_target(path, AtLink::kFollow);
-  remove_abandoned_parts(HeldDirectory(target.parent_path()), target.filename().string());
+  remove_abandoned_parts(HeldDirectory(target.parent_path()), {target.filename().string()});
   const fs::path part = part_path(target);
   // A file without a name need not be removed. Where there is none, or the directory or the name is wrong, one with a
   // name is tried. (In a removed directory of tmpfs the first can be made and the second cannot.)

@@ -369,12 +369,7 @@ fs::path part_path(const fs::path& path) {
                                           start_of_process(::getpid()) << 32 | count++);
 }
 
-long long process_of_part(std::string_view name, std::string_view of) {
-  const PartName part = part_name(name);
-  return of.empty() || part.of == of ? part.process : 0;
-}
-
-bool is_part_name(std::string_view name) { return process_of_part(name) > 0; }
+bool is_part_name(std::string_view name) { return part_name(name).process > 0; }
 
 void remove_part(const fs::path& path) try {
   Removal(path.parent_path(), {[](const HeldDirectory&) { return true; },
@@ -403,12 +398,22 @@ Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string
   return file;
 }
 
-void remove_abandoned_parts(const HeldDirectory& directory, const std::string& name) {
-  for (const std::string& part : directory.names()) {
-    if (process_of_part(part, name) == 0) continue;
-    if (const Descriptor lock = lock_abandoned_part(directory, part))
-      ::unlinkat(directory.fd(), part.c_str(), 0);
-  }
+namespace {
+
+void remove_if_abandoned(const HeldDirectory& directory, const std::string& part) {
+  if (const Descriptor lock = lock_abandoned_part(directory, part))
+    ::unlinkat(directory.fd(), part.c_str(), 0);
+}
+
+}  // namespace
+
+void remove_abandoned_parts(const HeldDirectory& directory, const std::set<std::string>& names) {
+  for (const std::string& part : directory.names())
+    if (names.contains(std::string(part_name(part).of))) remove_if_abandoned(directory, part);
+}
+
+void remove_abandoned_parts(const HeldDirectory& directory) {
+  for (const std::string& part : directory.names()) remove_if_abandoned(directory, part);
 }
 
 bool remove_temporary(const fs::path& path) try {

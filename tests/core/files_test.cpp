@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -237,10 +238,29 @@ TEST(AbandonedFiles, GoIfTheirProcessIsGoneAndStayIfItLives) {
   EXPECT_FALSE(fs::exists(earlier)) << "of an earlier process with our PID, as in a container";
   EXPECT_FALSE(fs::exists(reused)) << "of an earlier process with a PID that another one has now";
   EXPECT_TRUE(fs::exists(other)) << "of another file";
+  remove_abandoned_parts(HeldDirectory(directory.path()), {"b.exr", "a.exr"});
+  EXPECT_TRUE(fs::exists(other)) << "of none of these files";
   remove_abandoned_parts(HeldDirectory(directory.path()));
   EXPECT_FALSE(fs::exists(other));
   EXPECT_TRUE(fs::exists(alive));
   EXPECT_TRUE(fs::exists(foreign));
+}
+
+TEST(FilesTogether, AreLockedUntilTheyHaveTheirNames) {
+  const TemporaryDirectory directory;
+  FilesTogether files;
+  constexpr std::size_t kMany = 40;
+  for (std::size_t i = 0; i < kMany; ++i)
+    write_file(directory.path() / fmt::format("{}.exr", i), "new");
+  std::size_t parts = 0;
+  for (const auto& entry : fs::directory_iterator(directory.path())) {
+    const Descriptor part(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC));
+    EXPECT_NE(::flock(part.get(), LOCK_EX | LOCK_NB), 0)
+        << entry.path() << ": a container that does not see this process would remove it";
+    ++parts;
+  }
+  EXPECT_EQ(parts, kMany);
+  files.commit();
 }
 
 TEST(FilesTogether, HaveTheirNamesOnceAllAreThereAndElseNone) {
