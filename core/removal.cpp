@@ -107,8 +107,10 @@ std::string stat_of_process(const std::string& process) {
   return text;
 }
 
+constexpr long long kEnded = -1;
+
 /// When a process began, in ticks of a clock modulo 2^31, which tells it from others that have had its PID. 0 if that cannot
-/// be told.
+/// be told. kEnded for one that was killed and whose parent does not ask for it, as in a container without an init.
 long long start_of_process(long long process) {
   const std::string own = stat_of_process("self");
   const bool is_own = process == ::getpid();
@@ -119,6 +121,7 @@ long long start_of_process(long long process) {
   if (name_end == text.npos) return 0;
   constexpr std::size_t kPlace = 20;  // counted from the state
   const std::vector<std::string> fields = split(text.substr(name_end + 2), " ");
+  if (fields.front() == "Z" || fields.front() == "X") return kEnded;
   long long start = 0;
   const bool is_there = fields.size() >= kPlace && parse_integer(fields[kPlace - 1], start);
   return is_there ? start & 0x7fffffff : 0;

@@ -246,6 +246,31 @@ TEST(AbandonedFiles, GoIfTheirProcessIsGoneAndStayIfItLives) {
   EXPECT_TRUE(fs::exists(foreign));
 }
 
+TEST(AbandonedFiles, GoWhereNobodyAsksForTheProcessThatWasKilled) {
+  const TemporaryDirectory directory;
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    PartFile half(directory.path() / "a.exr");
+    const char byte = 0;
+    ::_exit(::write(ready[1], &byte, 1) == 1 && ::pause() == 0 ? 0 : 1);
+  }
+  char byte = 1;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  EXPECT_EQ(entries(directory.path()), 1u);
+  remove_abandoned_parts(HeldDirectory(directory.path()));
+  EXPECT_EQ(entries(directory.path()), 1u) << "it lives";
+  ::kill(child, SIGKILL);
+  siginfo_t end;
+  ASSERT_EQ(::waitid(P_PID, id_t(child), &end, WEXITED | WNOWAIT), 0);
+  remove_abandoned_parts(HeldDirectory(directory.path()));
+  EXPECT_EQ(entries(directory.path()), 0u);
+  ::waitpid(child, nullptr, 0);
+  ::close(ready[0]);
+  ::close(ready[1]);
+}
+
 TEST(FilesTogether, AreLockedUntilTheyHaveTheirNames) {
   const TemporaryDirectory directory;
   FilesTogether files;
