@@ -180,7 +180,7 @@ ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave) {
   cells.farm.truth = chunk.truth;
   cells.farm.ours = chunk.ours.value_or(true);
   cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
-  JobGraph graph(cells.farm, engines);
+  JobGraph graph(cells.farm, engines, options.time_limit);
   const auto is_of_chunk = [&](JobIndex job) {
     return graph[job].exists && cells.jobs[graph.cell_of(job)].contains(graph.name(job));
   };
