@@ -169,15 +169,19 @@ std::vector<fs::path> regular_files_below(const fs::path& directory) {
 
 PartFile::PartFile(const fs::path& path, AtLink at_link)
     : path_(path), target_(final_target(path, at_link)), part_([&] {
-        while (true) {
+        constexpr int kMostTries = 20;
+        for (int tries = 1;; ++tries) {
           const fs::path part = part_path(target_);
           file_ = Descriptor(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
           if (!file_) output_error(path, errno);
           ::flock(file_.get(), LOCK_EX);  // the lock tells others that it is not abandoned
+          errno = ESTALE;
           if (is_at(part, file_.get())) return part;
           // Another machine, which does not know our process, removed it before it was locked; or we could not look.
+          const int error = errno;
           file_.close();
           remove_part(part);
+          if (tries == kMostTries) output_error(path, error);
         }
       }) {}
 
