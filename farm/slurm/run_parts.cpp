@@ -375,8 +375,8 @@ bool Submitter::give_up_where_no_node_is_left(const std::vector<SlurmJob>& jobs)
   return any;
 }
 
-/// Kept as a file, to look at if something goes wrong. Slurm has a copy, so the hashes hold whatever becomes of the directory.
-fs::path Submitter::write_script(const records::SlurmArray& array, const std::string& title,
+/// Slurm has a copy, so the hashes hold whatever becomes of the directory.
+std::string Submitter::script_of(const records::SlurmArray& array,
                                  const std::vector<Sha256Digest>& chunks) const {
   const std::string program = shell_quote(fs::absolute(run_.work.program).string());
   const std::string directory = shell_quote(run_.directory.string());
@@ -394,9 +394,7 @@ fs::path Submitter::write_script(const records::SlurmArray& array, const std::st
         "--allow-commands\n",
         program, directory, array.first_chunk);
   }
-  const fs::path path = run_.directory / "submit" / (title + ".sh");
-  write_file(path, text, AtLink::kReplace);
-  return path;
+  return text;
 }
 
 /// Excludes the nodes `without`; `refusal` gets Slurm's words if there are no others.
@@ -429,8 +427,12 @@ SlurmJobId Submitter::submit(records::SlurmArray array, const std::vector<Sha256
     asked.exclude += (asked.exclude.empty() ? "" : ",") + node;
   const auto more = last ? finish_arguments_ : sbatch_arguments(asked);
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto id = call_sbatch(arguments, write_script(array, title, chunks), comment,
-                              !without.empty(), refusal);
+  const std::string text = script_of(array, chunks), file = title + ".sh";
+  // To look at if something goes wrong. Slurm gets another copy, which nobody else can replace before it is read.
+  write_file(run_.directory / "submit" / file, text, AtLink::kReplace);
+  const TemporaryDirectory own;
+  write_file(own.path() / file, text);
+  const auto id = call_sbatch(arguments, own.path() / file, comment, !without.empty(), refusal);
   if (!id) return 0;
   array.job = *id;
   run_.record.arrays.push_back(array);

@@ -115,8 +115,8 @@ class Submitter {
   ChunkRule rule() const;
   void give_up(const std::vector<SlurmJob>& jobs, const std::vector<std::size_t>& places,
                const std::string& why);
-  std::filesystem::path write_script(const records::SlurmArray& array, const std::string& title,
-                                     const std::vector<Sha256Digest>& chunks) const;
+  std::string script_of(const records::SlurmArray& array,
+                        const std::vector<Sha256Digest>& chunks) const;
   SlurmJobId submit(records::SlurmArray array, const std::vector<Sha256Digest>& chunks,
                     const std::vector<SlurmJobId>& after, const NodeNames& without,
                     std::string& refusal);

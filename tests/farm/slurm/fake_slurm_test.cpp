@@ -309,6 +309,16 @@ TEST_F(FakeSlurm, RunsNoChunkThatWasChangedAfterItWasSubmitted) {
   EXPECT_THAT(toy.started(), IsEmpty());
 }
 
+TEST_F(FakeSlurm, GetsNoScriptThatAnotherHasPutIntoTheRunsDirectory) {
+  jobs(1);
+  fs::rename(bin() / "sbatch", bin() / "sbatch.good");
+  fake("sbatch", R"(for s in "$d"/toy/run/submit/*.sh; do echo ": > '$d/evil'" > "$s"; done
+exec "$d/bin/sbatch.good" "$@")");
+  EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
+  EXPECT_FALSE(fs::exists(in("evil")));
+  EXPECT_EQ(toy.finished(), "1\n");
+}
+
 TEST_F(FakeSlurm, NeverHearsTheNameOfAnotherRunsJobsFromAForgedRecord) {
   jobs(1);
   records::SlurmRun forged;
