@@ -169,7 +169,7 @@ std::vector<fs::path> regular_files_below(const fs::path& directory) {
 
 PartFile::PartFile(const fs::path& path, AtLink at_link)
     : path_(path), target_(final_target(path, at_link)), part_([&] {
-        constexpr int kMostTries = 20;
+        constexpr int kMostTries = 5;
         for (int tries = 1;; ++tries) {
           const fs::path part = part_path(target_);
           file_ = Descriptor(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
