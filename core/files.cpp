@@ -83,6 +83,13 @@ InputFile::InputFile(const fs::path& path)
 
 fs::path InputFile::real_path() const {
   fs::path real = lobelia::real_path(path_, ExitCode::kInput);
+  // The path may lead elsewhere by now, as may each folder in it: what counts is the kernel's word on the open file.
+  std::error_code error;
+  const fs::path open = fs::read_symlink(fmt::format("/proc/self/fd/{}", file_.get()), error);
+  if (!error)
+    real = open;
+  else if (error != std::errc::no_such_file_or_directory)  // or else there is no /proc
+    throw failure_of(path_.string() + ": cannot tell where it is", error.value(), ExitCode::kInput);
   if (!is_at(real, file_.get()))
     throw Error(ExitCode::kInput,
                 fmt::format("{}: it was replaced while it was opened", path_.string()));

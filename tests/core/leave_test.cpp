@@ -1,11 +1,15 @@
 #include "core/leave.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdio.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -98,6 +102,21 @@ TEST_F(LeaveTest, IsNeededForAnyOtherFileWhateverPathLeadsThere) {
                              HasSubstr("--allow-commands")));
     EXPECT_EQ(opened(name, Leave::of_user(true)).second, "secret/x") << name;
   }
+}
+
+TEST_F(LeaveTest, IsNeededForAnotherFileThoughFoldersAreExchangedMeanwhile) {
+  fs::create_directory_symlink("../secret", path("own/evil"));
+  const std::string inside = path("own/inside").string(), evil = path("own/evil").string();
+  std::atomic<bool> done = false;
+  std::thread exchange([&] {
+    while (!done) ::renameat2(AT_FDCWD, inside.c_str(), AT_FDCWD, evil.c_str(), RENAME_EXCHANGE);
+  });
+  for (int i = 0; i < 5000; ++i)
+    if (const auto [code, text] = opened("inside/x"); code == ExitCode::kSuccess) {
+      EXPECT_EQ(text, "own/inside/x");
+    }
+  done = true;
+  exchange.join();
 }
 
 TEST_F(LeaveTest, OpensNoPipeAndWaitsForNone) {
