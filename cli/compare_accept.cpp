@@ -213,8 +213,10 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   std::vector<Replacement> files;
   for (const NewReference& one : list)
     files.push_back({one.from, *one.bytes, one.place.lexically_relative(folder), one.before});
-  const fs::path shown = shortest_path(folder);
-  replace_files(shown, files);
+  std::set<fs::path> known;
+  for (const NewReference& one : list) known.insert(one.to);
+  const fs::path shown = known_path(folder, known);
+  replace_files(HeldDirectory(shown), files);
   fmt::print("{} references were replaced; 'lobelia accept --undo {}' puts the old ones back\n",
              list.size(), printable_path(shell_quote(shown.string())));
   return list.size() == found && only_these;

@@ -240,7 +240,7 @@ TEST_F(CompareAccept, AnInterruptedAcceptanceIsFinishedByTheNextComparison) {
                        sha256(text("truth/" + name))};
   };
   const std::vector<Replacement> files{of("x.exr"), of("y.exr")};
-  replace_files(path("truth"), files);
+  replace_files(HeldDirectory(path("truth")), files);
   // As if it was killed before the last file had its place.
   const fs::path kept = path("truth") / kReplacedName;
   fs::rename(kept / "last", kept / "now");
