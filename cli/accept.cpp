@@ -13,7 +13,6 @@
 #include "cli/replaced_references.hpp"
 #include "core/files.hpp"
 #include "core/replacement.hpp"
-#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
 namespace lobelia::cli {
@@ -68,21 +67,43 @@ std::optional<fs::path> newest_replaced(const std::set<fs::path>& places) {
   return newest;
 }
 
+/// A folder below one of the places with an acceptance to undo, as a hint. Does not search long.
+std::optional<fs::path> replaced_below(const std::set<fs::path>& places) {
+  constexpr int kMostEntries = 100'000;
+  int entries = 0;
+  for (const fs::path& place : places) {
+    std::error_code unknown;
+    fs::recursive_directory_iterator entry(place.empty() ? fs::path(".") : place,
+                                           fs::directory_options::skip_permission_denied, unknown);
+    for (const fs::recursive_directory_iterator end;
+         !unknown && entry != end && ++entries <= kMostEntries; entry.increment(unknown)) {
+      if (entry->path().filename() != kReplacedName) continue;
+      entry.disable_recursion_pending();
+      try {
+        if (fs::path folder = entry->path().parent_path(); last_replacement(folder)) return folder;
+      } catch (const Error&) {  // it is damaged or somebody else's: no hint
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 void undo(const std::string& given) {
   const std::set<fs::path> places = places_to_undo(given);
   const std::optional<fs::path> folder = newest_replaced(places);
-  if (!folder)
+  if (!folder) {
+    const auto below = replaced_below(places);
     throw Error(
         ExitCode::kInput,
-        fmt::format("{}: no acceptance to undo in this folder, nor above it",
-                    printable_path(places.begin()->empty() ? "." : places.begin()->string())));
-  const ReplacementOutcome done = undo_replacement(shortest_path(*folder));
-  for (const fs::path& file : done.files)
-    if (!verbosity().quiet && std::ranges::count(done.left, file) == 0)
-      fmt::print("{}\n", printable_path(file.string()));
-  for (const fs::path& file : done.left)
-    say("lobelia: {}: was changed since, and stays as it is\n", printable_path(file.string()));
-  fmt::print("{} references are what they were before\n", done.files.size() - done.left.size());
+        fmt::format("{}: no acceptance to undo in this folder, nor above it{}",
+                    printable_path(places.begin()->empty() ? "." : places.begin()->string()),
+                    below ? "; there is one in " + printable_path(below->string()) : ""));
+  }
+  const ReplacementOutcome done = undo_replacement(known_path(*folder, places));
+  if (!verbosity().quiet)
+    for (const fs::path& file : done.files) fmt::print("{}\n", printable_path(file.string()));
+  say_problems(done);
+  fmt::print("{} references are what they were before\n", done.files.size());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "cli/compare_arguments.hpp"
@@ -80,9 +81,10 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
     for (const fs::path& file : *files) outputs.writes(file);
   for (const fs::path& file : reports) require_writable(file);
   if (!one && !options.difference.path.empty()) make_directories(options.difference.path);
-  std::set<fs::path> folders;
-  for (const fs::path& file : pictures) folders.insert(file.parent_path());
-  for (const fs::path& folder : folders) remove_abandoned_parts(HeldDirectory(folder));
+  std::map<fs::path, std::set<std::string>> names;
+  for (const fs::path& file : pictures) names[file.parent_path()].insert(file.filename().string());
+  for (const auto& [folder, written] : names)
+    remove_abandoned_parts(HeldDirectory(folder), written);
 }
 
 bool prints_report(const CompareArguments& options) {

@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/farm.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
 #include "core/standard_streams.hpp"
@@ -24,7 +25,8 @@ struct EnginesArguments {
 /// Adds the engines that grids and engine files describe.
 void add_outside_engines(const EnginesArguments& options,
                          std::vector<std::unique_ptr<Engine>>& engines) {
-  const Leave of_user = Leave::of_user(options.allow_commands);
+  if (options.files.empty()) return;
+  const Leave of_user = leave_of_user(options.allow_commands);
   const auto add = [&](std::span<const OutsideEngine> described, const Leave& leave) {
     require_leave_to_start(described, leave);
     for (const OutsideEngine& one : described) engines.push_back(make_outside_engine(one, leave));

@@ -30,7 +30,7 @@ FarmOptions farm_options(const FarmArguments& options) {
   farm.disk = parse_size(options.disk);
   farm.failed_directory = std::filesystem::absolute(options.directory) / FailedJobs::kName;
   farm.filter = JobFilter(options.filter);
-  farm.leave = Leave::of_user(options.allow_commands);
+  farm.leave = leave_of_user(options.allow_commands);
   farm.command = command_line();
   return farm;
 }
@@ -142,6 +142,16 @@ ExitCode run_farm_command(const FarmArguments& options) {
 }
 
 }  // namespace
+
+Leave leave_of_user(bool given) {
+  static bool warned = false;
+  if (const std::string doubts = given || warned ? "" : doubts_of_trusted_folders();
+      !doubts.empty()) {
+    warned = true;
+    warn(doubts);
+  }
+  return Leave::of_user(given);
+}
 
 void add_farm(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand(

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/leave.hpp"
 #include "farm/slurm/slurm_farm.hpp"
 
 namespace lobelia::cli {
@@ -32,5 +33,8 @@ SlurmFarmSummary follow(SlurmRunOptions options,
 void add_farm_slurm(CLI::App& farm, ExitCode& exit_code);
 /// status, verify, gc, clean and explain.
 void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code);
+
+/// The user's leave, by --allow-commands. Without that, warns once of doubtful folders that give it.
+Leave leave_of_user(bool given);
 
 }  // namespace lobelia::cli

@@ -5,6 +5,7 @@
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/removal.hpp"
+#include "core/text.hpp"
 #include "farm/slurm/doctor.hpp"
 
 namespace lobelia::cli {
@@ -112,9 +113,17 @@ CLI::App* add_hidden(CLI::App& farm, const std::string& name, const std::string&
   return command;
 }
 
-void exec_chunk(const std::filesystem::path& run, std::size_t number, const Leave& leave,
-                ExitCode& exit_code) {
-  const ChunkSummary done = exec_slurm_chunk(run, number, leave);
+Sha256Digest planned_hash(const std::string& text) {
+  Sha256Digest planned;
+  if (!from_hex(text, planned))
+    throw Error(ExitCode::kUsage,
+                fmt::format("--sha256: '{}' is not 64 hexadecimal digits", printable(text)));
+  return planned;
+}
+
+void exec_chunk(const std::filesystem::path& run, std::size_t number, const Sha256Digest& planned,
+                const Leave& leave, ExitCode& exit_code) {
+  const ChunkSummary done = exec_slurm_chunk(run, number, planned, leave);
   fmt::print("chunk {}: {} jobs, {} done, {} made here, {} failed; {:.1f} s\n", number, done.jobs,
              done.done, done.work.made, done.failed, done.work.wall_seconds);
   for (const auto& [engine, why] : done.left)
@@ -124,8 +133,8 @@ void exec_chunk(const std::filesystem::path& run, std::size_t number, const Leav
   if (done.failed > 0) exit_code = ExitCode::kOutput;
 }
 
-void finish_run(const std::filesystem::path& run, const Leave& leave) {
-  const SlurmFarmSummary end = finish_slurm_run(run, leave);
+void finish_run(const std::filesystem::path& run, const Sha256Digest& planned, const Leave& leave) {
+  const SlurmFarmSummary end = finish_slurm_run(run, planned, leave);
   const FarmSummary& summary = end.farm;
   fmt::print("{} cells: {} failed, {} differ, {} pass, {} not done\n", summary.cells,
              summary.failed, summary.differs, summary.pass, summary.missing);
@@ -142,14 +151,19 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
   auto* chunk = add_hidden(farm, "exec-chunk", "What an element of a cluster's job does", "RUN",
                            *path, "The run's directory");
   chunk->add_option("NUMBER", *number, "Of the chunk")->required();
-  chunk->callback([path, number, allowed, &exit_code] {
-    exec_chunk(*path, *number, Leave::of_user(*allowed), exit_code);
+  auto sha256 = std::make_shared<std::string>();
+  chunk->callback([path, number, sha256, allowed, &exit_code] {
+    exec_chunk(*path, *number, planned_hash(*sha256), leave_of_user(*allowed), exit_code);
   });
   auto* finish = add_hidden(farm, "finish", "What the last element of a run does", "RUN", *path,
                             "The run's directory");
-  finish->callback([path, allowed] { finish_run(*path, Leave::of_user(*allowed)); });
-  for (CLI::App* const command : {chunk, finish})
+  finish->callback([path, sha256, allowed] {
+    finish_run(*path, planned_hash(*sha256), leave_of_user(*allowed));
+  });
+  for (CLI::App* const command : {chunk, finish}) {
+    command->add_option("--sha256", *sha256, "Of what the job was submitted to do")->required();
     command->add_flag("--allow-commands", *allowed, "Do what the run's records say");
+  }
   add_hidden(farm, "doctor-on-node", "What the doctor's element does", "DIR", *path,
              "Made by the doctor")
       ->callback([path] { doctor_on_node(*path); });

@@ -55,6 +55,7 @@ void tell_what_stays(const std::vector<std::string>& stays) {
 /// A line about the run on a cluster; empty if there is none.
 std::string cluster_text(const std::string& directory) {
   const SlurmStatus status = slurm_status(slurm_run_directory(directory));
+  if (!status.foreign.empty()) say("lobelia: {}\n", status.foreign);
   if (!status.problem.empty()) return fmt::format("Slurm: {}\n", status.problem);
   if (status.living.empty()) return "";
   return fmt::format(
@@ -80,7 +81,7 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
       SlurmRunOptions slurm = SlurmSettings().run_options();
       const auto followed = follow(slurm, [&](const SlurmRunOptions& with_progress) {
         return attach_to_slurm_run(options->directory, with_progress,
-                                   Leave::of_user(options->allow_commands));
+                                   leave_of_user(options->allow_commands));
       });
       exit_code = publish_if_wanted(options->directory, followed.gallery);
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/replacement.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
@@ -23,15 +22,14 @@ std::vector<std::string> given_references(const PairingChoice& choice) {
 bool finish_all(const std::set<fs::path>& places) {
   bool any = false;
   for (const fs::path& folder : replaced_above(places)) {
-    const fs::path shown = shortest_path(folder);
+    const fs::path shown = known_path(folder, places);
     const ReplacementOutcome done = finish_replacement(shown);
     if (done.way == ReplacementOutcome::Way::kNothing) continue;
     any = true;
     say("lobelia: {}: an acceptance was interrupted; {} references are {}\n",
-        printable_path(shown.string()), done.files.size() - done.left.size(),
+        printable_path(shown.string()), done.files.size(),
         done.way == ReplacementOutcome::Way::kReplaced ? "replaced now" : "what they were before");
-    for (const fs::path& left : done.left)
-      say("lobelia: {}: was changed since, and stays as it is\n", printable_path(left.string()));
+    say_problems(done);
   }
   return any;
 }
@@ -89,10 +87,21 @@ Pairing pair_finished(const PairingChoice& choice) {
   return finish_all(places_of_references(pairing)) ? pair_pictures(choice) : pairing;
 }
 
-fs::path shortest_path(const fs::path& path) {
+void say_problems(const ReplacementOutcome& done) {
+  for (const std::string& problem : done.problems) say("lobelia: {}\n", printable_path(problem));
+}
+
+fs::path known_path(const fs::path& folder, const std::set<fs::path>& known) {
   std::error_code unknown;
-  const fs::path relative = fs::proximate(path, unknown);
-  return unknown || relative.empty() || *relative.begin() == ".." ? path : relative;
+  for (fs::path part : known)
+    for (bool is_last = false; !is_last; part = part.parent_path()) {
+      is_last = part == part.parent_path();
+      if (!part.has_filename() && !is_last) continue;  // "refs/"
+      const fs::path shown = part.empty() ? fs::path(".") : part;
+      if (fs::canonical(shown, unknown) == folder && !unknown) return shown;
+    }
+  const fs::path relative = fs::proximate(folder, unknown);
+  return unknown || relative.empty() || *relative.begin() == ".." ? folder : relative;
 }
 
 }  // namespace lobelia::cli

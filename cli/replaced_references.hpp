@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/set/pairing.hpp"
+#include "core/replacement.hpp"
 
 namespace lobelia::cli {
 
@@ -25,7 +26,12 @@ std::vector<std::filesystem::path> replaced_above(const std::set<std::filesystem
 /// throws as finish_replacement().
 Pairing pair_finished(const PairingChoice& choice);
 
-/// From the current directory, if it lies below that.
-std::filesystem::path shortest_path(const std::filesystem::path& path);
+/// Says on stderr which files are not what they should be, and why.
+void say_problems(const ReplacementOutcome& done);
+
+/// A folder as the user knows it: what leads to it of one of the `known` paths, which are in it or lead to it themselves.
+/// Otherwise from the current directory, if it lies below that. `folder` is without links.
+std::filesystem::path known_path(const std::filesystem::path& folder,
+                                 const std::set<std::filesystem::path>& known);
 
 }  // namespace lobelia::cli

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,6 +45,14 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
   return target;
 }
 
+/// Descriptors that finished files may hold until all are renamed.
+std::size_t most_open_together() {
+  constexpr rlim_t kFew = 16, kMany = 256;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return kFew;
+  return std::clamp(limit.rlim_cur / 4, kFew, kMany);
+}
+
 thread_local int flushes_later = 0;  ///< FlushLater objects of the thread
 
 void require_bound(const InputFile& file, std::uint64_t bytes, std::uint64_t max_bytes) {
@@ -74,6 +83,13 @@ InputFile::InputFile(const fs::path& path)
 
 fs::path InputFile::real_path() const {
   fs::path real = lobelia::real_path(path_, ExitCode::kInput);
+  // The path may lead elsewhere by now, as may each folder in it: what counts is the kernel's word on the open file.
+  std::error_code error;
+  const fs::path open = fs::read_symlink(fmt::format("/proc/self/fd/{}", file_.get()), error);
+  if (!error)
+    real = open;
+  else if (error != std::errc::no_such_file_or_directory)  // or else there is no /proc
+    throw failure_of(path_.string() + ": cannot tell where it is", error.value(), ExitCode::kInput);
   if (!is_at(real, file_.get()))
     throw Error(ExitCode::kInput,
                 fmt::format("{}: it was replaced while it was opened", path_.string()));
@@ -160,15 +176,19 @@ std::vector<fs::path> regular_files_below(const fs::path& directory) {
 
 PartFile::PartFile(const fs::path& path, AtLink at_link)
     : path_(path), target_(final_target(path, at_link)), part_([&] {
-        while (true) {
+        constexpr int kMostTries = 5;
+        for (int tries = 1;; ++tries) {
           const fs::path part = part_path(target_);
           file_ = Descriptor(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
           if (!file_) output_error(path, errno);
           ::flock(file_.get(), LOCK_EX);  // the lock tells others that it is not abandoned
+          errno = ESTALE;
           if (is_at(part, file_.get())) return part;
           // Another machine, which does not know our process, removed it before it was locked; or we could not look.
+          const int error = errno;
           file_.close();
           remove_part(part);
+          if (tries == kMostTries) output_error(path, error);
         }
       }) {}
 
@@ -233,18 +253,23 @@ void PartFile::flush() {
   write_waiting();
   // Without fsync a full disk may be noticed only after the rename.
   if (flushes_later == 0 && ::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
-  if (::close(file_.release()) != 0) fail(errno);
+}
+
+void PartFile::close() {
+  if (file_ && ::close(file_.release()) != 0) fail(errno);
 }
 
 void PartFile::finish() {
   if (FilesTogether* const together = FilesTogether::current_) {
     const std::lock_guard lock(together->mutex_);
-    // A few stay open until commit(), because flushing several at once takes no longer than one.
-    constexpr std::size_t kMostOpen = 16;
-    if (together->finished_.size() >= kMostOpen) flush();
-    if (file_) {
+    // They stay open until commit(): flushing several at once takes no longer than one, and their locks tell those who
+    // cannot see this process that they are not abandoned.
+    if (together->finished_.size() < most_open_together()) {
       write_waiting();
       ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);  // begins to write it
+    } else {
+      flush();
+      close();
     }
     waiting_.shrink_to_fit();  // there may be thousands
     together->finished_.push_back(std::move(*this));
@@ -252,6 +277,7 @@ void PartFile::finish() {
   }
   flush();
   if (::rename(part_.path().c_str(), target_.c_str()) != 0) fail(errno);
+  close();
 }
 
 FlushLater::FlushLater() { ++flushes_later; }
@@ -274,6 +300,7 @@ void FilesTogether::commit() {
   for (PartFile& file : finished_) {
     if (::rename(file.part_.path().c_str(), file.target_.c_str()) != 0)
       output_error(file.path_, errno);
+    file.close();
     file.part_.forget();
   }
   finished_.clear();
@@ -295,7 +322,7 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
   const fs::path target = final_target(path, AtLink::kFollow);
-  remove_abandoned_parts(HeldDirectory(target.parent_path()), target.filename().string());
+  remove_abandoned_parts(HeldDirectory(target.parent_path()), {target.filename().string()});
   const fs::path part = part_path(target);
   // A file without a name need not be removed. Where there is none, or the directory or the name is wrong, one with a
   // name is tried. (In a removed directory of tmpfs the first can be made and the second cannot.)

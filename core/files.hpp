@@ -102,6 +102,7 @@ class PartFile {
   friend class FilesTogether;
   [[noreturn]] void fail(int error);
   void flush();
+  void close();
   void write(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   void write_waiting();
   Descriptor file_;

@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/no_resources.hpp"
-#include "core/sha256.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -76,6 +75,15 @@ std::optional<FileStatus> status_in(const HeldDirectory& directory, const std::s
   if (::fstatat(directory.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return status;
   if (errno != ENOENT) cannot_change(directory.path() / name, errno);
   return std::nullopt;
+}
+
+std::optional<FileStatus> status_if_holds(const HeldDirectory& directory, const std::string& name,
+                                          const Sha256Digest& bytes) {
+  const std::optional<FileStatus> before = status_in(directory, name);
+  if (!before || !S_ISREG(before->st_mode) || sha256_of_file(directory.path() / name) != bytes)
+    return std::nullopt;
+  const std::optional<FileStatus> after = status_in(directory, name);
+  return after && is_unchanged(*before, *after) ? after : std::nullopt;
 }
 
 HeldDirectory find_in(const HeldDirectory& root, const fs::path& relative) {

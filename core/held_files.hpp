@@ -10,6 +10,7 @@
 
 #include "core/descriptor.hpp"
 #include "core/removal.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
 
@@ -24,6 +25,11 @@ bool is_unchanged(const FileStatus& a, const FileStatus& b);
 std::optional<FileStatus> status_behind(const std::filesystem::path& path);
 /// The status of the entry itself. Nothing if there is none. Throws Error(kOutput) if that cannot be told.
 std::optional<FileStatus> status_in(const HeldDirectory& directory, const std::string& name);
+
+/// The status of a regular file with these bytes. Nothing if there is none, or somebody writes into it meanwhile. Throws
+/// Error(kOutput) and as sha256_of_file() if that cannot be told.
+std::optional<FileStatus> status_if_holds(const HeldDirectory& directory, const std::string& name,
+                                          const Sha256Digest& bytes);
 
 /// The directory `relative` of `root`, by plain names. Holds none if it is missing. Throws Error(kOutput) for a link on the
 /// way, and for another file system.

@@ -22,7 +22,39 @@ bool lies_in_trusted_folder(const fs::path& real_path) {
   });
 }
 
+/// Whether every user may put files into a folder, or another folder in its place.
+bool anyone_may_write(const fs::path& folder) {
+  constexpr auto kSticky = fs::perms::sticky_bit, kOthers = fs::perms::others_write;
+  std::error_code unknown;
+  bool is_above = false;
+  for (fs::path at = folder;; at = at.parent_path(), is_above = true) {
+    const fs::perms may = fs::status(at, unknown).permissions();
+    const bool writable = !unknown && (may & kOthers) != fs::perms::none;
+    // Above it, nobody can rename what is another's where the folder is sticky.
+    if (writable && !(is_above && (may & kSticky) != fs::perms::none)) return true;
+    if (at == at.parent_path()) return false;
+  }
+}
+
 }  // namespace
+
+std::string doubts_of_trusted_folders() {
+  const char* list = std::getenv("LOBELIA_ALLOW_COMMANDS_IN");
+  std::vector<std::string> doubts;
+  for (const std::string& folder : split(list ? list : "", ":")) {
+    std::error_code error;
+    const fs::path real = fs::canonical(folder, error);
+    const std::string name = printable(folder, 1000);
+    if (!fs::path(folder).is_absolute())
+      doubts.push_back(fmt::format("'{}' is not absolute and gives no leave", name));
+    else if (error)
+      doubts.push_back(fmt::format("'{}' gives no leave: {}", name, error.message()));
+    else if (anyone_may_write(real))
+      doubts.push_back(fmt::format("any user may write into '{}', and so gets your leave", name));
+  }
+  if (doubts.empty()) return "";
+  return fmt::format("$LOBELIA_ALLOW_COMMANDS_IN: {}", fmt::join(doubts, "; "));
+}
 
 Leave Leave::of_user(bool given) {
   Leave leave;

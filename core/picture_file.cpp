@@ -243,6 +243,12 @@ PictureFile::PictureFile(const std::filesystem::path& path)
 
 PictureFile::PictureFile(InputFile file) : PictureFile(file.path(), file.release()) {}
 
+void PictureFile::require_picture(const InputFile& file) {
+  Descriptor same(::fcntl(file.descriptor(), F_DUPFD_CLOEXEC, 0));
+  if (!same) system_said(file.path(), errno);
+  PictureFile(file.path(), std::move(same)).known_format();
+}
+
 PictureFile::PictureFile(const std::filesystem::path& path, Descriptor file)
     : path_(path), file_(std::move(file)) {
   struct stat status {};

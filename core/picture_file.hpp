@@ -77,6 +77,8 @@ class PictureFile {
   /// Throws Error(kInput): missing, not a regular file, empty, over kMaxPictureBytes.
   explicit PictureFile(const std::filesystem::path& path);
   explicit PictureFile(InputFile file);
+  /// Throws as PictureFile(file).known_format(), and leaves the file open.
+  static void require_picture(const InputFile& file);
 
   const std::filesystem::path& path() const { return path_; }
   int descriptor() const { return file_.get(); }

@@ -107,8 +107,10 @@ std::string stat_of_process(const std::string& process) {
   return text;
 }
 
+constexpr long long kEnded = -1;
+
 /// When a process began, in ticks of a clock modulo 2^31, which tells it from others that have had its PID. 0 if that cannot
-/// be told.
+/// be told. kEnded for one that was killed and whose parent does not ask for it, as in a container without an init.
 long long start_of_process(long long process) {
   const std::string own = stat_of_process("self");
   const bool is_own = process == ::getpid();
@@ -119,6 +121,7 @@ long long start_of_process(long long process) {
   if (name_end == text.npos) return 0;
   constexpr std::size_t kPlace = 20;  // counted from the state
   const std::vector<std::string> fields = split(text.substr(name_end + 2), " ");
+  if (fields.front() == "Z" || fields.front() == "X") return kEnded;
   long long start = 0;
   const bool is_there = fields.size() >= kPlace && parse_integer(fields[kPlace - 1], start);
   return is_there ? start & 0x7fffffff : 0;
@@ -369,12 +372,7 @@ fs::path part_path(const fs::path& path) {
                                           start_of_process(::getpid()) << 32 | count++);
 }
 
-long long process_of_part(std::string_view name, std::string_view of) {
-  const PartName part = part_name(name);
-  return of.empty() || part.of == of ? part.process : 0;
-}
-
-bool is_part_name(std::string_view name) { return process_of_part(name) > 0; }
+bool is_part_name(std::string_view name) { return part_name(name).process > 0; }
 
 void remove_part(const fs::path& path) try {
   Removal(path.parent_path(), {[](const HeldDirectory&) { return true; },
@@ -403,12 +401,22 @@ Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string
   return file;
 }
 
-void remove_abandoned_parts(const HeldDirectory& directory, const std::string& name) {
-  for (const std::string& part : directory.names()) {
-    if (process_of_part(part, name) == 0) continue;
-    if (const Descriptor lock = lock_abandoned_part(directory, part))
-      ::unlinkat(directory.fd(), part.c_str(), 0);
-  }
+namespace {
+
+void remove_if_abandoned(const HeldDirectory& directory, const std::string& part) {
+  if (const Descriptor lock = lock_abandoned_part(directory, part))
+    ::unlinkat(directory.fd(), part.c_str(), 0);
+}
+
+}  // namespace
+
+void remove_abandoned_parts(const HeldDirectory& directory, const std::set<std::string>& names) {
+  for (const std::string& part : directory.names())
+    if (names.contains(std::string(part_name(part).of))) remove_if_abandoned(directory, part);
+}
+
+void remove_abandoned_parts(const HeldDirectory& directory) {
+  for (const std::string& part : directory.names()) remove_if_abandoned(directory, part);
 }
 
 bool remove_temporary(const fs::path& path) try {

@@ -115,15 +115,14 @@ class Removal {
 /// one may have its PID, and has random bits, because one of another machine may have it.
 std::filesystem::path part_path(const std::filesystem::path& path);
 bool is_part_name(std::string_view name);
-/// The PID in a name of part_path(), or of part_path("DIRECTORY/" + of); 0 for any other name.
-long long process_of_part(std::string_view name, std::string_view of = {});
 /// Removes a file of part_path() if it can, and nothing with another name. Throws nothing.
 void remove_part(const std::filesystem::path& path);
 /// Locks an unfinished file if its process is gone, here and on other machines; otherwise returns none.
 Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string& name);
-/// Removes all unfinished files of processes that are gone: what killed runs left behind. With `name` only those of that
-/// file.
-void remove_abandoned_parts(const HeldDirectory& directory, const std::string& name = {});
+/// Removes what killed runs left behind of the files with these names: unfinished files of processes that are gone.
+void remove_abandoned_parts(const HeldDirectory& directory, const std::set<std::string>& names);
+/// The same for files of any name, in a directory where only ours are written.
+void remove_abandoned_parts(const HeldDirectory& directory);
 
 inline constexpr char kTemporaryName[] = "lobelia-temporary-";  ///< and six letters or digits
 

@@ -12,8 +12,10 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "core/removal.hpp"
 #include "core/sha256.hpp"
 
 namespace lobelia {
@@ -48,7 +50,7 @@ struct Replacement {
 ///
 /// Throws Error(kInput) with a line for each file that does not hold what it has to; Error(kOutput) if one cannot be
 /// written; Error(kInterrupted). Each file is then what it was, unless the message says otherwise.
-void replace_files(const std::filesystem::path& folder, std::span<const Replacement> files);
+void replace_files(const HeldDirectory& folder, std::span<const Replacement> files);
 
 /// Whether files of this very folder were replaced. In a folder where everybody may make entries, such as /tmp, a directory
 /// of somebody else's does not count; with `only_own` nowhere.
@@ -59,12 +61,14 @@ struct ReplacementOutcome {
   enum class Way : std::uint8_t { kNothing, kReplaced, kPutBack };
   Way way = Way::kNothing;
   std::vector<std::filesystem::path> files;
-  /// Those among them that somebody has changed since. They stay as they are.
-  std::vector<std::filesystem::path> left;
+  /// "PATH: WHY" of each that is not among `files`, because somebody has changed it since, or what was kept for it; and why
+  /// the others were put back.
+  std::vector<std::string> problems;
 };
 
-/// Finishes what an interrupted process left under way, if has_replacements(). Throws Error(kOutput) if it cannot,
-/// Error(kInput) if its journal is damaged, Error(kInterrupted) while another process is at work.
+/// Finishes what an interrupted process left under way, if has_replacements(): replaces the rest if every file is what it
+/// left, else puts back all. Throws Error(kOutput) if it cannot, Error(kInput) if its journal is damaged, Error(kInterrupted)
+/// while another process is at work.
 ReplacementOutcome finish_replacement(const std::filesystem::path& folder);
 
 struct LastReplacement {
@@ -72,7 +76,8 @@ struct LastReplacement {
   std::vector<std::filesystem::path> files;
 };
 
-/// The one that undo_replacement() undoes; nothing if there is none. Throws Error(kInput) if its journal is damaged.
+/// The one that undo_replacement() undoes; nothing if there is none. Throws Error(kInput) if its journal is damaged,
+/// Error(kOutput) if it may not be read.
 std::optional<LastReplacement> last_replacement(const std::filesystem::path& folder);
 
 /// Puts back what was there before the last replacement, all or none. A file that was not there before goes, and so do

@@ -5,7 +5,9 @@
 
 #include <charconv>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/timed_hash.hpp"
 
 namespace lobelia {
 namespace {
@@ -38,9 +40,18 @@ Sha256Digest sha256_of_file(const std::filesystem::path& path) {
   return sha256_of_file(InputFile(path));
 }
 
-Sha256Digest sha256_of_file(const InputFile& file) {
+Sha256Digest sha256_of_file(const InputFile& file) { return sha256_of_file(file, kAnyTime); }
+
+Sha256Digest sha256_of_file(const InputFile& file, std::chrono::duration<double> time_limit) {
+  using Clock = std::chrono::steady_clock;
   Hasher one;
-  read_pieces(file, kMostHashedBytes, [&](std::string_view piece) { one.take(piece); });
+  read_pieces(file, kMostHashedBytes, [&, begun = Clock::now()](std::string_view piece) {
+    if (Clock::now() - begun > time_limit)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: {} bytes, which were not read within {:g} s",
+                              file.path().string(), file.size(), time_limit.count()));
+    one.take(piece);
+  });
   return one.finish();
 }
 

@@ -152,10 +152,15 @@ records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
   return record;
 }
 
-ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave) {
+ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave,
+                        const std::optional<Sha256Digest>& planned) {
   const InputFile opened(file);
-  const auto chunk = records::parse_record<records::FarmChunk>(
-      read_file(opened, records::kMaxRecordBytes), file.string());
+  const std::string text = read_file(opened, records::kMaxRecordBytes);
+  if (planned && sha256(text) != *planned)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: not the chunk that was submitted: its SHA-256 is {}, not {}",
+                            printable_path(file.string()), hex(sha256(text)), hex(*planned)));
+  const auto chunk = records::parse_record<records::FarmChunk>(text, file.string());
   const Leave trusted = leave.said_by(opened.real_path());
   if (!trusted) refuse_without_leave(wishes_of_chunk(chunk));
   ChunkSummary summary;
@@ -180,7 +185,7 @@ ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave) {
   cells.farm.truth = chunk.truth;
   cells.farm.ours = chunk.ours.value_or(true);
   cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
-  JobGraph graph(cells.farm, engines);
+  JobGraph graph(cells.farm, engines, options.time_limit);
   const auto is_of_chunk = [&](JobIndex job) {
     return graph[job].exists && cells.jobs[graph.cell_of(job)].contains(graph.name(job));
   };

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
+#include "core/sha256.hpp"
 #include "farm/farm_session.hpp"
 
 namespace lobelia {
@@ -23,8 +25,10 @@ struct ChunkSummary {
 };
 
 /// Does the jobs of the file that have their inputs. A chunk says what is started, what is read and where it is written, so
-/// it needs leave. Throws Error: kUsage (no leave), kInput (no such chunk), kOutput, kInterrupted.
-ChunkSummary exec_chunk(const std::filesystem::path& file, int threads, const Leave& leave);
+/// it needs leave. With `planned`, it also has to be the file that was planned: of that hash. Throws Error: kUsage (no leave),
+/// kInput (no such chunk, or another one than was planned), kOutput, kInterrupted.
+ChunkSummary exec_chunk(const std::filesystem::path& file, int threads, const Leave& leave,
+                        const std::optional<Sha256Digest>& planned = {});
 
 /// Its `node` is a valid node name.
 struct ChunkReport : records::FarmChunkReport {

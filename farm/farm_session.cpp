@@ -73,7 +73,7 @@ FarmWork::FarmWork(const Grid& g, const FarmOptions& options, const fs::path& di
       engines(
           find_engines(g.engines, {options.programs, options.require_engines, directory,
                                    options.engines_as_recorded, g.outside, leave_of(g, options)})),
-      graph(cells, engines) {}
+      graph(cells, engines, options.time_limit) {}
 
 std::vector<std::string> FarmWork::absences() const {
   std::vector<std::string> sentences;

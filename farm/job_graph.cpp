@@ -9,14 +9,17 @@
 #include <mutex>
 #include <numeric>
 
+#include "core/interrupt.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
 
-JobGraph::JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines)
+JobGraph::JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines,
+                   std::chrono::duration<double> time_limit)
     : cells_(&cells),
       engines_(&engines),
+      time_limit_(time_limit),
       own_(own_identity().text()),
       stride_(2 + 2 * engines.size()),
       jobs_(cells.cells.size() * stride_),
@@ -35,6 +38,7 @@ JobGraph::JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engine
 }
 
 void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& refusals) {
+  throw_if_interrupted();
   const Scene scene = cells_->scene(cell);
   scenes_[cell] = sha256(scene_to_xml(scene));
   const std::string_view scene_part(reinterpret_cast<const char*>(scenes_[cell].data()),
@@ -56,7 +60,7 @@ void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& r
     }
     std::vector<std::string_view> parts{"reference",  own_,         here.name,
                                         here.version, here.content, scene_part};
-    const std::string more = here.engine->key_part(axes(cell));
+    const std::string more = here.engine->key_part(scene.film, axes(cell), time_limit_);
     if (!more.empty()) parts.push_back(more);
     set(reference(cell, e), JobKind::kReference, e, result_key(parts));
     with_engine[e] = true;

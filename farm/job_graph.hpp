@@ -1,6 +1,7 @@
 // Every job of every cell, with the key of its result and its inputs.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 
 #include "farm/farm_engines.hpp"
@@ -22,8 +23,10 @@ using JobIndex = std::uint32_t;
 
 class JobGraph {
  public:
-  /// Computes all keys, on all processors. Both arguments must outlive the graph.
-  JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines);
+  /// Computes all keys, on all processors. Cells and engines must outlive the graph. `time_limit` is for the hash of a
+  /// picture that is there.
+  JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines,
+           std::chrono::duration<double> time_limit);
 
   std::size_t cell_count() const { return cells_->cells.size(); }
   std::size_t size() const { return jobs_.size(); }
@@ -89,6 +92,7 @@ class JobGraph {
 
   const FarmCells* cells_;
   const std::vector<FarmEngine>* engines_;
+  std::chrono::duration<double> time_limit_;
   std::string own_;  ///< own_identity(), as a part of every key
   std::size_t stride_;
   std::optional<std::size_t> truth_;  ///< index of the grid's reference

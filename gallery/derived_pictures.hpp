@@ -46,10 +46,15 @@ class ShownPicture {
   Image light_;
 };
 
+struct Thumbnail {
+  DisplayImage image;
+  bool knows_surface = true;  ///< false where the scene could not be read
+};
+
 /// Our picture with a longer side of at most `side`, as a grid shows it: what is black and no surface is grey, so that the
 /// spheres are seen, and a small highlight is enlarged in a corner.
-DisplayImage small_thumbnail(const Image& ours, const std::filesystem::path& run,
-                             const SurfaceOf& surface_of, const CheckedCell& cell, int side);
+Thumbnail small_thumbnail(const Image& ours, const std::filesystem::path& run,
+                          const SurfaceOf& surface_of, const CheckedCell& cell, int side);
 /// Writes it as "thumbnail.png" and names it in the cell's `thumbnail`.
 void publish_thumbnail(const std::filesystem::path& run, const SurfaceOf& surface_of,
                        CheckedCell& cell, Publisher& publisher);

@@ -60,7 +60,8 @@ ShrunkPictures shrink_pictures(const fs::path& run, const SurfaceOf& surface_of,
   for (EnginePicture& image : cell.images)
     if (image.engine == cell.hub)
       if (const auto ours = shrink(folder, image.png, shrunk.of_page))
-        shrunk.thumbnail = small_thumbnail(ours->light(), run, surface_of, cell, kThumbnailSide);
+        shrunk.thumbnail =
+            small_thumbnail(ours->light(), run, surface_of, cell, kThumbnailSide).image;
   for (EnginePicture& image : cell.images)
     if (image.engine != cell.hub) shrink(folder, image.png, shrunk.of_page);
   for (CheckedComparison& comparison : cell.comparisons)

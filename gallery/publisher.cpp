@@ -166,6 +166,11 @@ bool Publisher::derive(const std::string& name, const std::string& key,
   return true;
 }
 
+void Publisher::derive_again(const std::string& name) {
+  const std::scoped_lock lock(mutex_);
+  keys_.erase(name);
+}
+
 void Publisher::remove_stale() {
   std::set<fs::path> directories;
   for (const std::string& name : earlier_)

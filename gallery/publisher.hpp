@@ -46,6 +46,8 @@ class Publisher {
   /// Returns false, and writes no file, if `make` returns "".
   bool derive(const std::string& name, const std::string& key,
               const std::function<std::string()>& make);
+  /// Lets the next publication make this derived file again, whatever its key: something was missing when it was made.
+  void derive_again(const std::string& name);
 
   /// Removes files that the earlier publication wrote and this one did not, with directories that become empty,
   /// and writes the new list. A file that is now behind a link out of the site is left alone.

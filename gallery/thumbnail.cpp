@@ -86,19 +86,21 @@ DisplayImage thumbnail(const Image& whole, int width, int height, const PixelFla
 
 }  // namespace
 
-DisplayImage small_thumbnail(const Image& ours, const fs::path& run, const SurfaceOf& surface_of,
-                             const CheckedCell& cell, int side) {
+Thumbnail small_thumbnail(const Image& ours, const fs::path& run, const SurfaceOf& surface_of,
+                          const CheckedCell& cell, int side) {
   const auto [width, height] = size_within(ours.width(), ours.height(), side);
   PixelFlags surface;
+  bool knows_surface = true;
   if (surface_of && cell.has_scene) {
     try {
       surface = surface_of(run / "cells" / cell.id / "scene.xml", width, height);
     } catch (const Error& error) {
-      // A scene of another version has no surface here. After a fault, the picture without it would stay.
+      // A scene of another version has no surface here.
       if (error.code() != ExitCode::kInput || error.is_fault()) throw;
+      knows_surface = false;
     }
   }
-  return thumbnail(ours, width, height, surface);
+  return {thumbnail(ours, width, height, surface), knows_surface};
 }
 
 void publish_thumbnail(const fs::path& run, const SurfaceOf& surface_of, CheckedCell& cell,
@@ -110,11 +112,17 @@ void publish_thumbnail(const fs::path& run, const SurfaceOf& surface_of, Checked
   const std::string key = fmt::format(
       "thumbnail 1 of {} {}", hex(sha256_of_file(directory / ours->png.file)),
       has_scene ? hex(sha256_of_file(directory / "scene.xml")) : std::string("no scene"));
-  if (publisher.derive("cells/" + cell.id + "/thumbnail.png", key, [&] {
+  const std::string name = "cells/" + cell.id + "/thumbnail.png";
+  bool is_final = true;
+  if (publisher.derive(name, key, [&] {
         const auto shown = ShownPicture::read(directory / ours->png.file);
         if (!shown) return std::string();
-        return png_bytes(small_thumbnail(shown->light(), run, surface_of, cell, kThumbnailLonger));
+        const Thumbnail made =
+            small_thumbnail(shown->light(), run, surface_of, cell, kThumbnailLonger);
+        is_final = made.knows_surface;
+        return png_bytes(made.image);
       })) {
+    if (!is_final) publisher.derive_again(name);
     const auto [width, height] = size_within(ours->png.width, ours->png.height, kThumbnailLonger);
     cell.thumbnail = {"thumbnail.png", width, height};
   }

@@ -55,6 +55,8 @@ std::pair<std::string, std::vector<std::string>> farm(const py::object& grid_fil
   options.command = cli::command_line();
   std::string record;
   std::vector<std::string> sentences;
+  if (const std::string doubts = allow_commands ? "" : doubts_of_trusted_folders(); !doubts.empty())
+    sentences.push_back(doubts);
   run(progress, [&, file = path_of(grid_file)](const ShowProgress& show) {
     const Grid grid = read_grid(file);
     options.on_progress = [&](const FarmProgress& now) {

@@ -60,7 +60,7 @@ void define_cluster_tables(Tables& tables) {
       "Which jobs there are. A client that comes later goes on from it: slurm.json.", [](auto& t) {
         t.kind("slurm-run");
         t.key("name").most_text(99);
-        t.key("round").at_least(0);
+        t.key("round").within(0, 1e9);
         t.key("nextChunk").at_most(1e9);
         t.key("firstReport", "earlier reports were another run's");
       });

@@ -95,7 +95,8 @@ FileHashes::FileHashes(fs::path file) : file_(std::move(file)) {
 
 records::ContentFile FileHashes::hash(const fs::path& path) { return hash(InputFile(path)); }
 
-records::ContentFile FileHashes::hash(const InputFile& file) {
+records::ContentFile FileHashes::hash(const InputFile& file,
+                                      std::chrono::duration<double> time_limit) {
   const fs::path& path = file.path();
   const struct stat before = status_of(file);
   const std::string identity = identity_of(before);
@@ -106,7 +107,7 @@ records::ContentFile FileHashes::hash(const InputFile& file) {
       return {path.string(), std::uint64_t(before.st_size), known->second.sha256};
   }
   records::ContentFile hashed{path.string(), std::uint64_t(before.st_size),
-                              hex(sha256_of_file(file))};
+                              hex(sha256_of_file(file, time_limit))};
   const struct stat after = status_of(file);
   const bool settled = identity_of(after) == identity &&
                        std::time(nullptr) - std::max(after.st_mtim.tv_sec, after.st_ctim.tv_sec) >=
@@ -140,7 +141,13 @@ void FileHashes::save() {
 void ContentReader::add(std::string_view part, std::string_view name, const fs::path& file) {
   records::ContentFile hashed{file.string(), 0, kUnreadable};
   try {
-    hashed = hashes_.hash(file);
+    const InputFile opened(file);
+    if (opened.size() > kMostHashedBytes)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: {} bytes; a file that an engine gets as an argument, or that it "
+                              "loads, is hashed, and may have {}",
+                              printable_path(file.string()), opened.size(), kMostHashedBytes));
+    hashed = hashes_.hash(opened);
   } catch (const Error& error) {
     // A program may be executable but not readable. If a fault counted as that, all keys would change without a word.
     if (error.code() != ExitCode::kInput || !is_out_of_reach(file)) throw;

@@ -1,6 +1,7 @@
 // The content of a program: the files that it runs and loads, with one hash over all of them.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "core/timed_hash.hpp"
 #include "records/result.hpp"
 
 namespace lobelia {
@@ -31,7 +33,8 @@ class FileHashes {
 
   /// Throws as sha256_of_file().
   records::ContentFile hash(const std::filesystem::path& path);
-  records::ContentFile hash(const InputFile& file);
+  records::ContentFile hash(const InputFile& file,
+                            std::chrono::duration<double> time_limit = kAnyTime);
   /// Writes new hashes and drops those of deleted files. If it cannot write, the next run reads the files again.
   void save();
   std::size_t read_count() const { return read_count_; }  ///< files hashed by reading them
@@ -55,8 +58,8 @@ class ContentReader {
  public:
   explicit ContentReader(FileHashes& hashes) : hashes_(hashes) {}
   /// `part` is "program", "library" and so on. `name` is the same wherever the file lies; empty if it makes no difference.
-  /// A file that is gone or may not be read counts by its name only. Throws Error(kInput) if one cannot be read for another
-  /// reason, such as a fault of the disk.
+  /// A file that is gone or may not be read counts by its name only. Throws Error(kInput) if one has over kMostHashedBytes
+  /// or cannot be read for another reason, such as a fault of the disk.
   void add(std::string_view part, std::string_view name, const std::filesystem::path& file);
   /// All regular files below `directory`, if it exists, by their relative names. Skips Python's caches and links to
   /// directories. Throws as add(), and if a directory cannot be listed.

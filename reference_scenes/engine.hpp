@@ -201,8 +201,12 @@ class Engine {
                       const AxisValues& axes = {}) const;
   /// Its description, if it is not one of the catalogue; otherwise null.
   virtual const records::OutsideEngine* outside() const { return nullptr; }
-  /// The part of a picture's cache key that its version, files and scene do not cover.
-  virtual std::string key_part(const AxisValues&) const { return ""; }
+  /// The part of a picture's cache key that its version, files and scene do not cover. What takes longer than `time_limit` to
+  /// read is not read: the picture fails.
+  virtual std::string key_part(const Film&, const AxisValues&,
+                               std::chrono::duration<double> /*time_limit*/) const {
+    return "";
+  }
   /// Whether a picture of this scene is an average of many.
   bool averages(const Scene& scene) const;
 

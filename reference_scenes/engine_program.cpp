@@ -234,6 +234,11 @@ Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arg
   return failure;
 }
 
+std::uint64_t most_picture_bytes(const Film& film) {
+  constexpr std::uint64_t kPerPixel = 1 << 10, kSmallest = 16 << 20;
+  return kSmallest + kPerPixel * std::uint64_t(film.width) * std::uint64_t(film.height);
+}
+
 Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,
                             const Film& film, Image& image) {
   std::error_code ignored;

@@ -60,6 +60,9 @@ Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arg
                    const std::filesystem::path& directory, ProcessOptions process,
                    const ReferenceOptions& options, ProcessResult& result);
 
+/// Bytes that a picture of this film may have: those of 64 layers of four floats, and more for small ones.
+std::uint64_t most_picture_bytes(const Film& film);
+
 /// Reads a picture, which must have the film's size.
 Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,
                             const Film& film, Image& image);

@@ -139,13 +139,33 @@ std::string joined_lines(std::string_view text, bool joins) {
   return lines;
 }
 
-/// The place behind the comment that begins at `at`; npos if it does not end. `nests`: comments may hold others.
-std::size_t end_of_comment(std::string_view text, std::size_t at, bool nests) {
-  if (text.substr(at, 2) == "//") return std::min(text.find('\n', at), text.size());
+/// The place of the first line break from `at` on; the text's end if there is none. WGSL has more of them (3.1, "Blankspace
+/// and Line Breaks"): VT, FF, U+0085, U+2028, U+2029.
+std::size_t end_of_line(std::string_view text, std::size_t at, bool is_wgsl) {
+  std::size_t end = std::min(text.find('\n', at), text.size());
+  if (is_wgsl)
+    for (const std::string_view line_break :
+         {"\v", "\f", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"})
+      end = std::min(text.substr(0, end).find(line_break, at), end);
+  return end;
+}
+
+/// The place behind the string of HLSL that begins at `at`, as glslang sees it: no escapes, and none beyond the line. A
+/// character's quotation mark begins none.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  if (text.substr(at, 3) == "'\"'") return at + 3;
+  if (text[at] != '"') return at;
+  const std::size_t end = text.find_first_of("\"\n", at + 1);
+  return end == text.npos ? text.size() : end + (text[end] == '"' ? 1 : 0);
+}
+
+/// The place behind the comment that begins at `at`; npos if it does not end. Those of WGSL may hold others.
+std::size_t end_of_comment(std::string_view text, std::size_t at, bool is_wgsl) {
+  if (text.substr(at, 2) == "//") return end_of_line(text, at, is_wgsl);
   std::size_t open = 0;
   while (at < text.size()) {
     const std::string_view two = text.substr(at, 2);
-    if (two == "/*" && (nests || open == 0)) {
+    if (two == "/*" && (is_wgsl || open == 0)) {
       ++open;
       at += 2;
     } else if (two == "*/") {
@@ -180,6 +200,13 @@ std::string without_comments(const ShaderSource& source, std::string_view text) 
       }
       continue;
     }
+    if (source.language == ShaderText::kHlsl)
+      if (const std::size_t end = end_of_string(text, at); end > at) {
+        plain += text.substr(at, end - at);
+        if (first == 0) first = text[at];
+        at = end;
+        continue;
+      }
     const char c = text[at++];
     plain += c;
     if (c == '\n') {
@@ -195,14 +222,14 @@ std::string without_comments(const ShaderSource& source, std::string_view text) 
 
 /// An included file would be any that the user may read, or one that never ends.
 void refuse_includes(const ShaderSource& source, std::string_view plain) {
-  for (std::size_t at = 0; (at = plain.find('#', at)) != plain.npos;) {
-    const std::size_t begin = plain.rfind('\n', at) + 1,
-                      end = std::min(plain.find('\n', at), plain.size());
-    const auto tokens = tokens_of(plain.substr(begin, end - begin));
-    if (tokens.size() > 1 && tokens[0] == "#" && tokens[1] == "include")
+  // Also where no directive can begin: a compiler may take for a comment what we take for a string.
+  for (std::size_t at = 0; (at = plain.find('#', at)) != plain.npos; ++at) {
+    const std::size_t word = plain.find_first_not_of(" \t\v\f", at + 1);
+    if (word == plain.npos) break;
+    const std::string_view rest = plain.substr(word);
+    if (rest.starts_with("include") && (rest.size() == 7 || !is_word_character(rest[7])))
       refuse_line(source, plain, at,
                   "#include is not allowed; a shader is one file, so put the text in its place");
-    at = end;
   }
 }
 

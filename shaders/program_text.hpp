@@ -12,8 +12,8 @@ inline std::size_t texels_of_point(std::size_t components) { return (components 
 
 /// The text with a blank for each comment, in UTF-8 without a byte order mark, with '\n' as the only line end and, but for
 /// WGSL, each line that ends with '\\' joined to the next. So a directive is what begins a line with '#', whatever stands
-/// around it. Lines keep their numbers. Throws Error(kInput), naming file and line, for #include and for a comment that
-/// does not end, and naming the file for zero bytes.
+/// around it. A string of HLSL has no comments. Lines keep their numbers. Throws Error(kInput), naming file and line, for
+/// #include and for a comment that does not end, and naming the file for zero bytes.
 std::string plain_text(const ShaderSource& source);
 
 /// The program's text, with its lines: a fragment shader for EGL, a compute shader for Vulkan. Throws as plain_text().

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/files.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/chunk.hpp"
 #include "records/record.hpp"
@@ -38,6 +39,10 @@ bool log_tells_of_memory(const fs::path& path) {
                              [](const std::string& line) { return tells_of_memory(line); });
 }
 
+std::string name_of_path(const fs::path& run_directory) {
+  return "lobelia-" + hex(sha256(run_directory.string())).substr(0, 16);
+}
+
 }  // namespace
 
 void RunContext::note(SlurmJobId id) {
@@ -50,14 +55,24 @@ void RunContext::write_record() const {
   records::write_record(directory / kRunRecordFile, record, AtLink::kReplace);
 }
 
-records::SlurmRun read_run_record(const fs::path& run_directory) {
+std::string job_name(const fs::path& run_directory) {
+  return name_of_path(real_path(run_directory));
+}
+
+records::SlurmRun read_run_record(const fs::path& run_directory, std::string& foreign) {
   const auto path = run_directory / kRunRecordFile;
   if (file_type_at(path) == fs::file_type::not_found) return {};
   auto record = records::read_record<records::SlurmRun>(path);
-  if (!record.name.starts_with("lobelia-") || !std::ranges::all_of(record.name, [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
-      }))
-    throw Error(ExitCode::kInput, fmt::format("{}: its name is not that of a run", path.string()));
+  const std::string own = job_name(run_directory);
+  // Earlier versions named jobs by the path as it was given.
+  if (record.name == own ||
+      record.name == name_of_path(fs::absolute(run_directory).lexically_normal()))
+    return record;
+  foreign = fmt::format(
+      "{}: it names jobs '{}', which are left alone: the jobs of this directory are '{}'.",
+      printable_path(path.string()), printable(record.name), own);
+  record.name = own;
+  record.arrays.clear();
   return record;
 }
 
@@ -306,13 +321,14 @@ std::vector<SlurmJobId> Submitter::submit_round(const std::vector<SlurmJob>& job
     // Recorded first, so that no two elements have the same number.
     run_.record.next_chunk += chunks.size();
     run_.write_record();
+    std::vector<Sha256Digest> written;
     for (std::size_t i = 0; i < chunks.size(); ++i) {
       for (std::size_t& job : chunks[i]) job = places[job];
-      run_.work.write_chunk(array.first_chunk + i, chunks[i]);
+      written.push_back(run_.work.write_chunk(array.first_chunk + i, chunks[i]));
       throw_if_interrupted();
     }
     std::string refusal;
-    const SlurmJobId id = submit(array, earlier_phases, kind.second, refusal);
+    const SlurmJobId id = submit(array, written, earlier_phases, kind.second, refusal);
     if (!refusal.empty()) {
       give_up(jobs, places,
               fmt::format("no node is left for it: {}; Slurm says: {}",
@@ -329,7 +345,7 @@ std::vector<SlurmJobId> Submitter::submit_round(const std::vector<SlurmJob>& job
       ids.size() == 1 ? "one array" : fmt::format("{} arrays", ids.size()), ids_text(ids)));
   std::string refusal;
   if (run_.options.finish)
-    submit({0, 0, 1, kFinishPhase, run_.record.round, "", ""}, ids, {}, refusal);
+    submit({0, 0, 1, kFinishPhase, run_.record.round, "", ""}, {}, ids, {}, refusal);
   return ids;
 }
 
@@ -359,24 +375,32 @@ bool Submitter::give_up_where_no_node_is_left(const std::vector<SlurmJob>& jobs)
   return any;
 }
 
-/// Kept as a file, to look at if something goes wrong.
-fs::path Submitter::write_script(const records::SlurmArray& array, const std::string& title) const {
+/// Slurm has a copy, so the hashes hold whatever becomes of the directory.
+std::string Submitter::script_of(const records::SlurmArray& array,
+                                 const std::vector<Sha256Digest>& chunks) const {
   const std::string program = shell_quote(fs::absolute(run_.work.program).string());
   const std::string directory = shell_quote(run_.directory.string());
   // exec: Slurm's signals reach the program itself, not a shell. What the records say, this client had leave for.
-  const std::string line =
-      array.phase == kFinishPhase
-          ? fmt::format("exec {} farm finish {}", program, directory)
-          : fmt::format("exec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID))", program,
-                        directory, array.first_chunk);
-  const fs::path path = run_.directory / "submit" / (title + ".sh");
-  write_file(path, fmt::format("#!/bin/sh\n{} --allow-commands\n", line), AtLink::kReplace);
-  return path;
+  std::string text = "#!/bin/sh\n";
+  if (array.phase == kFinishPhase) {
+    text += fmt::format("exec {} farm finish {} --sha256 {} --allow-commands\n", program, directory,
+                        hex(run_.work.run_record));
+  } else {
+    text += "case $SLURM_ARRAY_TASK_ID in\n";
+    for (std::size_t i = 0; i < chunks.size(); ++i)
+      text += fmt::format("{}) sha256={};;\n", i, hex(chunks[i]));
+    text += fmt::format(
+        "esac\nexec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID)) --sha256 \"$sha256\" "
+        "--allow-commands\n",
+        program, directory, array.first_chunk);
+  }
+  return text;
 }
 
 /// Excludes the nodes `without`; `refusal` gets Slurm's words if there are no others.
-SlurmJobId Submitter::submit(records::SlurmArray array, const std::vector<SlurmJobId>& after,
-                             const NodeNames& without, std::string& refusal) {
+SlurmJobId Submitter::submit(records::SlurmArray array, const std::vector<Sha256Digest>& chunks,
+                             const std::vector<SlurmJobId>& after, const NodeNames& without,
+                             std::string& refusal) {
   const bool last = array.phase == kFinishPhase;
   const int throttle = run_.options.slurm.throttle;
   const std::string title = last ? fmt::format("{}-finish", array.round)
@@ -403,8 +427,12 @@ SlurmJobId Submitter::submit(records::SlurmArray array, const std::vector<SlurmJ
     asked.exclude += (asked.exclude.empty() ? "" : ",") + node;
   const auto more = last ? finish_arguments_ : sbatch_arguments(asked);
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto id =
-      call_sbatch(arguments, write_script(array, title), comment, !without.empty(), refusal);
+  const std::string text = script_of(array, chunks), file = title + ".sh";
+  // To look at if something goes wrong. Slurm gets another copy, which nobody else can replace before it is read.
+  write_file(run_.directory / "submit" / file, text, AtLink::kReplace);
+  const TemporaryDirectory own;
+  write_file(own.path() / file, text);
+  const auto id = call_sbatch(arguments, own.path() / file, comment, !without.empty(), refusal);
   if (!id) return 0;
   array.job = *id;
   run_.record.arrays.push_back(array);

@@ -30,8 +30,11 @@ struct RunContext {
 
 using NodeNames = std::set<std::string>;
 
-/// Without a name if there is no record.
-records::SlurmRun read_run_record(const std::filesystem::path& run_directory);
+/// The name of all jobs of a run, by which they are found and cancelled: "lobelia-" and a hash of the directory's real path.
+std::string job_name(const std::filesystem::path& run_directory);
+/// Without a name if there is no record. One that names jobs of another directory, as a copied or forged record does, gets
+/// the name of this one and no arrays; `foreign` then is a sentence about it.
+records::SlurmRun read_run_record(const std::filesystem::path& run_directory, std::string& foreign);
 /// Adds the elements that squeue shows to the counts.
 void count_elements(const std::vector<SlurmElement>& elements, SlurmProgress& progress);
 /// False if interrupted and `until_interrupted`.
@@ -112,10 +115,11 @@ class Submitter {
   ChunkRule rule() const;
   void give_up(const std::vector<SlurmJob>& jobs, const std::vector<std::size_t>& places,
                const std::string& why);
-  std::filesystem::path write_script(const records::SlurmArray& array,
-                                     const std::string& title) const;
-  SlurmJobId submit(records::SlurmArray array, const std::vector<SlurmJobId>& after,
-                    const NodeNames& without, std::string& refusal);
+  std::string script_of(const records::SlurmArray& array,
+                        const std::vector<Sha256Digest>& chunks) const;
+  SlurmJobId submit(records::SlurmArray array, const std::vector<Sha256Digest>& chunks,
+                    const std::vector<SlurmJobId>& after, const NodeNames& without,
+                    std::string& refusal);
   std::optional<SlurmJobId> call_sbatch(const std::vector<std::string>& arguments,
                                         const std::filesystem::path& script,
                                         const std::string& comment, bool excludes,

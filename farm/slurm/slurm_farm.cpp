@@ -98,9 +98,15 @@ class Missing {
   std::vector<JobIndex> jobs_;  ///< of the last answer
 };
 
-void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
-                      const fs::path& directory, const FarmSession& session,
-                      const FarmOptions& options) {
+/// Of what the last element does by the record, so not of the command: another client may go on with the run.
+Sha256Digest hash_of_run(records::FarmRun record) {
+  record.command.clear();
+  return sha256(records::record_text(record));
+}
+
+Sha256Digest write_run_record(const fs::path& run_directory, const fs::path& grid_file,
+                              const fs::path& directory, const FarmSession& session,
+                              const FarmOptions& options) {
   records::FarmRun record;
   own_identity().put_into(record);
   record.grid = fs::absolute(grid_file).string();
@@ -111,6 +117,7 @@ void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
   for (const auto& [engine, program] : options.programs)
     record.programs.emplace_back(engine, fs::absolute(program).string());
   records::write_record(run_directory / kRunFile, record, AtLink::kReplace);
+  return hash_of_run(record);
 }
 
 struct RecordedRun {
@@ -133,11 +140,17 @@ std::vector<std::string> wishes_of_run(const records::FarmRun& record, const fs:
   return wishes;
 }
 
-RecordedRun read_run(const fs::path& directory, const Leave& leave) {
+RecordedRun read_run(const fs::path& directory, const Leave& leave,
+                     const std::optional<Sha256Digest>& planned = {}) {
   const InputFile file(slurm_run_directory(directory) / kRunFile);
   const std::string name = file.path().string();
   const auto record =
       records::parse_record<records::FarmRun>(read_file(file, records::kMaxRecordBytes), name);
+  if (planned && hash_of_run(record) != *planned)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: it says other things than when this job was submitted; 'lobelia "
+                            "farm status DIR --attach' ends the run as it says now",
+                            printable_path(name)));
   // With another identity, results would have other keys.
   const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
   if (!differences.empty())
@@ -203,13 +216,13 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   Missing missing(session);
   // A client that finds living jobs keeps their failures; a new run tries everything again.
   if (slurm_status(work.run_directory, slurm.call_limit).living.empty()) missing.forget_failures();
-  write_run_record(work.run_directory, grid_file, directory, session, options);
+  work.run_record = write_run_record(work.run_directory, grid_file, directory, session, options);
   work.missing = [&] { return missing(); };
   work.write_chunk = [&](std::size_t number, std::span<const std::size_t> places) {
-    records::write_record(
-        chunk_file(work.run_directory, number),
-        chunk_record(session.work(), session.cache(), options, missing.at(places)),
-        AtLink::kReplace);
+    const std::string text = records::record_text(
+        chunk_record(session.work(), session.cache(), options, missing.at(places)));
+    write_file(chunk_file(work.run_directory, number), text, AtLink::kReplace);
+    return sha256(text);
   };
   work.give_up = [&](std::span<const std::size_t> places, const std::string& why) {
     missing.give_up(places, why);
@@ -230,21 +243,22 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
 }
 
 ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number,
-                              const Leave& leave) {
+                              const Sha256Digest& planned, const Leave& leave) {
   int threads = 1;
   if (const char* given = std::getenv("SLURM_CPUS_PER_TASK")) {
     long long count = 0;
     if (parse_integer(given, count) && count >= 1 && count <= 1024) threads = int(count);
   }
-  ChunkSummary summary = exec_chunk(chunk_file(run_directory, number), threads, leave);
+  ChunkSummary summary = exec_chunk(chunk_file(run_directory, number), threads, leave, planned);
   write_chunk_report(run_directory, number, summary.left);
   return summary;
 }
 
-SlurmFarmSummary finish_slurm_run(const fs::path& run_directory, const Leave& leave) {
+SlurmFarmSummary finish_slurm_run(const fs::path& run_directory, const Sha256Digest& planned,
+                                  const Leave& leave) {
   // It is DIR/runs/slurm.
   const fs::path inside = fs::absolute(run_directory / "chunks").lexically_normal();
-  RecordedRun run = read_run(inside.parent_path().parent_path().parent_path(), leave);
+  RecordedRun run = read_run(inside.parent_path().parent_path().parent_path(), leave, planned);
   run.options.engines_as_recorded = true;
   const Grid grid = read_grid(run.grid_file);
   FarmSession session(grid, run.directory, run.options);

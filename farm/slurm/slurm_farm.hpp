@@ -25,12 +25,14 @@ SlurmFarmSummary attach_to_slurm_run(const std::filesystem::path& directory,
 /// DIRECTORY/runs/slurm: a farm has one run at a time.
 std::filesystem::path slurm_run_directory(const std::filesystem::path& directory);
 
-/// For an element: exec_chunk() of chunk NUMBER with the threads that Slurm gave it, otherwise one.
+/// For an element: exec_chunk() of chunk NUMBER, as it was planned, with the threads that Slurm gave it, otherwise one.
 ChunkSummary exec_slurm_chunk(const std::filesystem::path& run_directory, std::size_t number,
-                              const Leave& leave);
+                              const Sha256Digest& planned, const Leave& leave);
 
-/// For the last element: writes the farm's directory from the results of the others. Throws as attach_to_slurm_run().
-SlurmFarmSummary finish_slurm_run(const std::filesystem::path& run_directory, const Leave& leave);
+/// For the last element: writes the farm's directory from the results of the others. `planned` is SlurmWork::run_record when
+/// it was submitted. Throws as attach_to_slurm_run(), and Error(kInput) if the run's record says other things by now.
+SlurmFarmSummary finish_slurm_run(const std::filesystem::path& run_directory,
+                                  const Sha256Digest& planned, const Leave& leave);
 
 /// About how many seconds a job takes on one processor, for the size of chunks. `engine` is null for our own picture.
 double estimated_seconds(JobKind kind, const EngineInfo* engine, const Scene& scene);

@@ -9,7 +9,6 @@
 #include "core/byte_locks.hpp"
 #include "core/files.hpp"
 #include "core/removal.hpp"
-#include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/run_parts.hpp"
@@ -45,10 +44,11 @@ class Client {
       locks.write_holder();
     else
       run_.say("This file system has no locks: start no second client of this run.");
-    run_.record = read_run_record(run_.directory);
+    std::string foreign;
+    run_.record = read_run_record(run_.directory, foreign);
+    if (!foreign.empty()) run_.say(foreign);
     // Another client of the same run gives its jobs the same name.
-    if (run_.record.name.empty())
-      run_.record.name = "lobelia-" + hex(sha256(run_.directory.string())).substr(0, 16);
+    if (run_.record.name.empty()) run_.record.name = job_name(run_.directory);
     struct Silence {
       ~Silence() { set_last_words(""); }
     } silence;
@@ -289,7 +289,7 @@ bool ask_whether_to_cancel() {
 
 SlurmStatus slurm_status(const fs::path& run_directory, std::chrono::duration<double> call_limit) {
   SlurmStatus status;
-  const auto record = read_run_record(run_directory);
+  const auto record = read_run_record(run_directory, status.foreign);
   if (record.name.empty()) return status;
   status.name = record.name;
   status.round = status.elements.round = record.round;

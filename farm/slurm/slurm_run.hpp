@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 
+#include "core/sha256.hpp"
 #include "farm/slurm/slurm_answers.hpp"
 #include "farm/slurm/slurm_options.hpp"
 
@@ -40,15 +41,17 @@ struct SlurmWork {
   /// The same for the same work, so that another client finds the run again. Holds slurm.json (its jobs), log/ and submit/
   /// (scripts), on a file system that the nodes share.
   std::filesystem::path run_directory;
-  /// Called as `PROGRAM farm exec-chunk RUN_DIR NUMBER --allow-commands` for an element and
-  /// `PROGRAM farm finish RUN_DIR --allow-commands` at the end.
+  /// Called as `PROGRAM farm exec-chunk RUN_DIR NUMBER --sha256 HASH --allow-commands` for an element and
+  /// `PROGRAM farm finish RUN_DIR --sha256 HASH --allow-commands` at the end.
   std::filesystem::path program;
   /// Jobs without a result that are still to be tried. Called before each round; an empty list ends the run.
   std::function<std::vector<SlurmJob>()> missing;
-  /// Writes the jobs of element NUMBER: positions in the last list of missing(). No number is used twice.
-  std::function<void(std::size_t number, std::span<const std::size_t> jobs)> write_chunk;
+  /// Writes the jobs of element NUMBER: positions in the last list of missing(). No number is used twice. Returns the hash of
+  /// what it wrote: the element does nothing else, whoever may write into the directory meanwhile.
+  std::function<Sha256Digest(std::size_t number, std::span<const std::size_t> jobs)> write_chunk;
   /// No node is left for these positions; from now on missing() omits them.
   std::function<void(std::span<const std::size_t> jobs, const std::string& why)> give_up;
+  Sha256Digest run_record = {};  ///< of what the last element may be told; it gets this hash
 };
 
 struct SlurmProgress {
@@ -95,7 +98,8 @@ bool ask_whether_to_cancel();
 
 /// A run according to slurm.json and Slurm; does not disturb its client.
 struct SlurmStatus {
-  std::string name;  ///< of its jobs; empty: never submitted
+  std::string name;     ///< of its jobs; empty: never submitted
+  std::string foreign;  ///< a sentence, if slurm.json names jobs that are not this directory's
   int round = 0;
   std::vector<SlurmLivingJob> living;
   SlurmProgress elements;  ///< of all living jobs

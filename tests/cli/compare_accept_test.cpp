@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <iterator>
 #include <limits>
 
 #include "core/replacement.hpp"
@@ -32,14 +33,17 @@ class CompareAccept : public ComparePictures {
   /// types the answer.
   std::string accept(const std::string& options, const std::string& answer = "yes",
                      const std::string& meanwhile = "", const std::string& environment = "") {
-    const std::string command =
-        environment + " \"$LOBELIA\" compare " + options + " --accept; echo ended with $?";
+    return at_terminal(environment + " \"$LOBELIA\" compare " + options + " --accept", answer,
+                       meanwhile);
+  }
+  std::string at_terminal(const std::string& command, const std::string& answer = "yes",
+                          const std::string& meanwhile = "") {
     return run_shell(
                "export LOBELIA; unset CI JENKINS_URL TEAMCITY_VERSION TF_BUILD; trap '' PIPE\n"
                "rm -f keys typescript; mkfifo keys\n"
                "{ script -qefc '" +
                    command +
-                   "' typescript < keys > /dev/null; echo ended >> typescript; } &\n"
+                   "; echo ended with $?' typescript < keys > /dev/null; echo ended >> typescript; } &\n"
                    "exec 3> keys\n"
                    "until grep -q 'Type yes\\|^ended' typescript 2> /dev/null; do sleep 0.01; done\n" +
                    meanwhile + "\necho " + answer + " >&3\nexec 3>&-\nwait\ncat typescript",
@@ -109,6 +113,48 @@ TEST_F(CompareAccept, APictureThatIsNotFiniteOrNoPictureIsLeftAlone) {
   EXPECT_EQ(files_in(path("truth")), 1u);
 }
 
+TEST_F(CompareAccept, NoLayerOfANewReferenceMayBeNotFinite) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(),
+                  kInfinity = std::numeric_limits<float>::infinity();
+  grey("truth/x.exr", 0.6f), grey("mine/x.exr", 0.6f);
+  grey("mine/alpha.exr", 0.5f, {channel("A", kNaN)});
+  grey("mine/layer.exr", 0.5f,
+       {channel("diffuse.R", 1), channel("diffuse.G", kInfinity), channel("diffuse.B", 1)});
+  grey("mine/depth.exr", 0.5f, {channel("Z", kInfinity)});
+  grey("mine/depth_nan.exr", 0.5f, {channel("Z", kNaN)});
+  const auto part = [&](const char* name, float value) {
+    const auto whole = window(0, 0, 32, 32);
+    return ExrPart{
+        name, whole, whole, {channel("R", value), channel("G", value), channel("B", value)}};
+  };
+  write_exr_parts(path("mine/parts.exr"), {part("beauty", 0.5f), part("second", kNaN)});
+  const std::string said = accept("mine truth");
+  for (const char* name : {"alpha", "depth_nan", "layer", "parts"}) {
+    EXPECT_THAT(said,
+                HasSubstr(fmt::format(
+                    "left alone: mine/{}.exr has values that are not finite in layer", name)));
+    EXPECT_FALSE(fs::exists(path(fmt::format("truth/{}.exr", name))));
+  }
+  EXPECT_EQ(text("truth/depth.exr"), text("mine/depth.exr")) << "infinity is far away";
+}
+
+TEST_F(CompareAccept, NoLayerOfAJudgedPictureMayBeNotFinite) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(),
+                  kInfinity = std::numeric_limits<float>::infinity();
+  grey("mine/alpha.exr", 0.5f, {channel("A", kNaN)});
+  grey("truth/alpha.exr", 0.6f, {channel("A", 1)});
+  grey("mine/added.exr", 0.5f, {channel("mist", kNaN)}), grey("truth/added.exr", 0.6f);
+  grey("mine/depth.exr", 0.5f, {channel("Z", kInfinity)});
+  grey("truth/depth.exr", 0.6f, {channel("Z", 1)});
+  const std::string said = accept("mine truth --all-layers");
+  EXPECT_THAT(said,
+              HasSubstr("left alone: mine/alpha.exr has values that are not finite in layer A"));
+  EXPECT_THAT(said,
+              HasSubstr("left alone: mine/added.exr has values that are not finite in layer mist"));
+  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_EQ(text("truth/depth.exr"), text("mine/depth.exr"));
+}
+
 TEST_F(CompareAccept, AReferenceThatIsALinkIsReplacedAndNotTheFileBehindIt) {
   grey("mine/x.exr", 0.5f), grey("archive/x.exr", 0.6f);
   fs::create_directories(path("truth"));
@@ -135,6 +181,80 @@ TEST_F(CompareAccept, NothingIsWrittenThroughALinkToAFolder) {
   EXPECT_EQ(files_in(path("outside")), 1u);
   EXPECT_FALSE(fs::exists(path("truth/nowhere")));
   EXPECT_EQ(text("truth/y.exr"), text("mine/y.exr"));
+}
+
+TEST_F(CompareAccept, ATableLeadsThroughNoLinkOutOfAFolder) {
+  for (const char* name : {"x.exr", "y.exr", "z.exr"}) grey(std::string("mine/") + name, 0.5f);
+  grey("outside/x.exr", 0.6f), grey("truth/v3/y.exr", 0.6f), grey("truth/z.exr", 0.6f);
+  fs::create_directory_symlink("../outside", path("truth/ln"));
+  fs::create_directory_symlink("v3", path("truth/latest"));
+  file("pairs.csv",
+       "mine,truth\nmine/x.exr,truth/ln/x.exr\nmine/y.exr,truth/latest/y.exr\n"
+       "mine/z.exr,truth/z.exr\n");
+  file("lobelia.toml", "pairs = \"pairs.csv\"\n");
+  const std::string before = text("outside/x.exr");
+  for (const char* options : {"--pairs pairs.csv", "", "mine/x.exr truth/ln/x.exr"}) {
+    const std::string said = accept(options, "no");
+    EXPECT_THAT(said,
+                HasSubstr("left alone: truth/ln/x.exr: truth/ln is a link that leads elsewhere"))
+        << options;
+  }
+  EXPECT_THAT(accept("--pairs pairs.csv"), HasSubstr("2 references were replaced"));
+  EXPECT_EQ(text("outside/x.exr"), before);
+  EXPECT_EQ(text("truth/v3/y.exr"), text("mine/y.exr"));
+}
+
+TEST_F(CompareAccept, AFolderIsNamedAsItWasGiven) {
+  grey("mine/sub/x.exr", 0.5f), grey("data/truth/sub/x.exr", 0.6f), grey("-b/x.exr", 0.6f);
+  fs::create_directory_symlink("data/truth", path("known"));
+  EXPECT_THAT(accept("mine/sub known/sub"), HasSubstr("'lobelia accept --undo known/sub' puts"));
+  expect_one_line(
+      undo({"known"}), 3,
+      "known: no acceptance to undo in this folder, nor above it; there is one in known/sub");
+  EXPECT_THAT(undo({"known/sub"}).output_tail, HasSubstr("known/sub/x.exr\n1 references are what"));
+  EXPECT_THAT(accept("mine/sub ./-b"), HasSubstr("'lobelia accept --undo ./-b' puts"));
+}
+
+TEST_F(CompareAccept, ANewPictureWhoseFolderIsAFileIsLeftAlone) {
+  differing_pair("y.exr"), grey("mine/notes/x.exr", 0.5f), grey("mine/notes/deep/x.exr", 0.5f);
+  file("truth/notes", "mine");
+  const std::string said = accept("mine truth");
+  for (const char* name : {"x.exr", "deep/x.exr"})
+    EXPECT_THAT(said, HasSubstr(fmt::format("left alone: truth/notes/{}: ", name)));
+  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(said, HasSubstr("ended with 1"));
+  EXPECT_EQ(text("truth/notes"), "mine");
+}
+
+TEST_F(CompareAccept, ReferencesWithNoFolderInCommonAreLeftAlone) {
+  if (*std::next(directory_.path().begin()) == "dev")
+    GTEST_SKIP() << "the files of this test lie there, too";
+  const TemporaryDirectory elsewhere("/dev/shm");
+  differing_pair("x.exr"), grey("mine/y.exr", 0.5f);
+  write_exr_channels(elsewhere.path() / "y.exr", 32, 32,
+                     {channel("R", 0.6f), channel("G", 0.6f), channel("B", 0.6f)});
+  file("pairs.csv", fmt::format("mine,truth\nmine/x.exr,truth/x.exr\nmine/y.exr,{}\n",
+                                (elsewhere.path() / "y.exr").string()));
+  const std::string before = text("truth/x.exr"), said = accept("--pairs pairs.csv");
+  EXPECT_THAT(said, HasSubstr("left alone: truth/x.exr: has no folder but / in common"));
+  EXPECT_THAT(said, HasSubstr("/y.exr: has no folder but / in common"));
+  EXPECT_THAT(said, HasSubstr("no reference would change"));
+  EXPECT_THAT(said, HasSubstr("ended with 1"));
+  EXPECT_EQ(text("truth/x.exr"), before);
+}
+
+TEST_F(CompareAccept, AReferenceOnAnotherFileSystemIsLeftAlone) {
+  fs::create_directories(path("truth/disk"));
+  if (run_shell("unshare -rm mount -t tmpfs none truth/disk", directory_.path()).exit_code != 0)
+    GTEST_SKIP() << "nothing may be mounted here";
+  differing_pair("x.exr"), grey("mine/disk/x.exr", 0.5f), grey("there/x.exr", 0.6f);
+  file(
+      "script",
+      "mount -t tmpfs none truth/disk && cp there/x.exr truth/disk && \"$LOBELIA\" compare mine truth "
+      "--accept\n");
+  const std::string said = at_terminal("unshare -rm sh script");
+  EXPECT_THAT(said, HasSubstr("left alone: truth/disk/x.exr: truth/disk: another file system"));
+  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
 }
 
 TEST_F(CompareAccept, APictureThatIsThereIsNotCalledNew) {
@@ -184,6 +304,17 @@ TEST_F(CompareAccept, WhatChangesWhileTheQuestionIsOpenIsNotAccepted) {
   EXPECT_THAT(said, HasSubstr("ended with 3"));
   EXPECT_EQ(text("truth/x.exr"), x);
   EXPECT_EQ(text("truth/y.exr"), text("theirs.exr"));
+}
+
+TEST_F(CompareAccept, AFolderThatBecomesALinkWhileTheQuestionIsOpenIsNotFollowed) {
+  grey("mine/x.exr", 0.5f), grey("mine/new.exr", 0.5f), grey("all/truth/x.exr", 0.6f);
+  fs::create_directories(path("outside"));
+  fs::copy_file(path("all/truth/x.exr"), path("outside/x.exr"));
+  const std::string before = text("outside/x.exr");
+  EXPECT_THAT(accept("mine all/truth", "yes", "mv all/truth all/moved; ln -s ../outside all/truth"),
+              HasSubstr("all/truth: cannot write: it was moved meanwhile"));
+  EXPECT_EQ(text("outside/x.exr"), before);
+  EXPECT_EQ(files_in(path("outside")), 1u);
 }
 
 TEST_F(CompareAccept, AnAcceptanceKeepsModesAndIsUndone) {
@@ -240,7 +371,7 @@ TEST_F(CompareAccept, AnInterruptedAcceptanceIsFinishedByTheNextComparison) {
                        sha256(text("truth/" + name))};
   };
   const std::vector<Replacement> files{of("x.exr"), of("y.exr")};
-  replace_files(path("truth"), files);
+  replace_files(HeldDirectory(path("truth")), files);
   // As if it was killed before the last file had its place.
   const fs::path kept = path("truth") / kReplacedName;
   fs::rename(kept / "last", kept / "now");

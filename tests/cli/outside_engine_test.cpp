@@ -111,6 +111,8 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
         .exit_code;
   };
   EXPECT_EQ(in("/nowhere:\"$PWD\""), 0);
+  EXPECT_THAT(run_shell("LOBELIA_ALLOW_COMMANDS_IN=/nowhere " + run, directory_.path()).output_tail,
+              HasSubstr("warning: $LOBELIA_ALLOW_COMMANDS_IN: '/nowhere' gives no leave"));
   EXPECT_EQ(in("\"$PWD\"x:/nowhere:."), 2);
   // Leave for a folder does not reach a neighbour whose name begins like it. Only a folder that exists gives leave.
   for (const char* folder : {"near", "nearby"}) fs::create_directory(path(folder));

@@ -65,6 +65,14 @@ TEST_F(SystemFaults, AreSaidInOneLineWithThePath) {
   }
 }
 
+TEST_F(SystemFaults, OfEveryLookAtAnUnfinishedFileEndTheCommand) {
+  expect_one_line(run_with("lstat", EIO, ".part",
+                           "render -q \"$SCENES\"head_on.xml --width 32 --height 32 -o b.exr"),
+                  4, "b.exr: cannot write: Input/output error");
+  for (const auto& entry : fs::directory_iterator(directory_.path()))
+    EXPECT_NE(entry.path().extension(), ".part");
+}
+
 TEST_F(SystemFaults, DoNotTurnAForeignFileIntoOneOfOurs) {
   fs::create_directory(path("site"));
   for (const char* foreign : {"site/index.html", "page.html"}) write_file(path(foreign), "mine");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -237,10 +238,54 @@ TEST(AbandonedFiles, GoIfTheirProcessIsGoneAndStayIfItLives) {
   EXPECT_FALSE(fs::exists(earlier)) << "of an earlier process with our PID, as in a container";
   EXPECT_FALSE(fs::exists(reused)) << "of an earlier process with a PID that another one has now";
   EXPECT_TRUE(fs::exists(other)) << "of another file";
+  remove_abandoned_parts(HeldDirectory(directory.path()), {"b.exr", "a.exr"});
+  EXPECT_TRUE(fs::exists(other)) << "of none of these files";
   remove_abandoned_parts(HeldDirectory(directory.path()));
   EXPECT_FALSE(fs::exists(other));
   EXPECT_TRUE(fs::exists(alive));
   EXPECT_TRUE(fs::exists(foreign));
+}
+
+TEST(AbandonedFiles, GoWhereNobodyAsksForTheProcessThatWasKilled) {
+  const TemporaryDirectory directory;
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    PartFile half(directory.path() / "a.exr");
+    const char byte = 0;
+    ::_exit(::write(ready[1], &byte, 1) == 1 && ::pause() == 0 ? 0 : 1);
+  }
+  char byte = 1;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  EXPECT_EQ(entries(directory.path()), 1u);
+  remove_abandoned_parts(HeldDirectory(directory.path()));
+  EXPECT_EQ(entries(directory.path()), 1u) << "it lives";
+  ::kill(child, SIGKILL);
+  siginfo_t end;
+  ASSERT_EQ(::waitid(P_PID, id_t(child), &end, WEXITED | WNOWAIT), 0);
+  remove_abandoned_parts(HeldDirectory(directory.path()));
+  EXPECT_EQ(entries(directory.path()), 0u);
+  ::waitpid(child, nullptr, 0);
+  ::close(ready[0]);
+  ::close(ready[1]);
+}
+
+TEST(FilesTogether, AreLockedUntilTheyHaveTheirNames) {
+  const TemporaryDirectory directory;
+  FilesTogether files;
+  constexpr std::size_t kMany = 40;
+  for (std::size_t i = 0; i < kMany; ++i)
+    write_file(directory.path() / fmt::format("{}.exr", i), "new");
+  std::size_t parts = 0;
+  for (const auto& entry : fs::directory_iterator(directory.path())) {
+    const Descriptor part(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC));
+    EXPECT_NE(::flock(part.get(), LOCK_EX | LOCK_NB), 0)
+        << entry.path() << ": a container that does not see this process would remove it";
+    ++parts;
+  }
+  EXPECT_EQ(parts, kMany);
+  files.commit();
 }
 
 TEST(FilesTogether, HaveTheirNamesOnceAllAreThereAndElseNone) {

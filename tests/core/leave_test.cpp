@@ -1,11 +1,15 @@
 #include "core/leave.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdio.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -56,6 +60,34 @@ TEST_F(LeaveTest, IsThereIfTheUserGivesItOrTrustsEveryFileThatHasASay) {
   EXPECT_FALSE(Leave().said_by(path("trusted")).said_by(path("secret")));
 }
 
+TEST_F(LeaveTest, SaysWhichFoldersAreDoubtful) {
+  EXPECT_THAT(doubts_of_trusted_folders(),
+              AllOf(HasSubstr("$LOBELIA_ALLOW_COMMANDS_IN: 'relative' is not absolute"),
+                    HasSubstr("; '/nowhere' gives no leave: No such file or directory"),
+                    testing::Not(HasSubstr("trusted"))));
+  const auto doubts = [](const fs::path& folder) {
+    ::setenv("LOBELIA_ALLOW_COMMANDS_IN", folder.c_str(), 1);
+    return doubts_of_trusted_folders();
+  };
+  EXPECT_EQ(doubts(""), "");
+  EXPECT_EQ(doubts(path("trusted/deep")), "");
+  const auto any_user = HasSubstr("any user may write into '" + path("trusted/deep").string());
+  const auto set = [&](const char* folder, unsigned mode) {
+    fs::permissions(path(folder), fs::perms(mode));
+  };
+  set("trusted/deep", 0777);
+  EXPECT_THAT(doubts(path("trusted/deep")), any_user);
+  set("trusted/deep", 01777);
+  EXPECT_THAT(doubts(path("trusted/deep")), any_user) << "others can still add files";
+  set("trusted/deep", 0775);
+  EXPECT_EQ(doubts(path("trusted/deep")), "");
+  // Whoever may write into the folder above can put another in its place, unless that is sticky.
+  set("trusted", 0777);
+  EXPECT_THAT(doubts(path("trusted/deep")), any_user);
+  set("trusted", 01777);
+  EXPECT_EQ(doubts(path("trusted/deep")), "");
+}
+
 TEST_F(LeaveTest, IsNotNeededForAFileInTheDirectoryThatNamesItOrBelow) {
   for (const char* name : {"inside/x", "stays", "inside/../inside/x", "up/own/inside/x"})
     EXPECT_EQ(opened(name), std::pair(ExitCode::kSuccess, std::string("own/inside/x"))) << name;
@@ -70,6 +102,21 @@ TEST_F(LeaveTest, IsNeededForAnyOtherFileWhateverPathLeadsThere) {
                              HasSubstr("--allow-commands")));
     EXPECT_EQ(opened(name, Leave::of_user(true)).second, "secret/x") << name;
   }
+}
+
+TEST_F(LeaveTest, IsNeededForAnotherFileThoughFoldersAreExchangedMeanwhile) {
+  fs::create_directory_symlink("../secret", path("own/evil"));
+  const std::string inside = path("own/inside").string(), evil = path("own/evil").string();
+  std::atomic<bool> done = false;
+  std::thread exchange([&] {
+    while (!done) ::renameat2(AT_FDCWD, inside.c_str(), AT_FDCWD, evil.c_str(), RENAME_EXCHANGE);
+  });
+  for (int i = 0; i < 5000; ++i)
+    if (const auto [code, text] = opened("inside/x"); code == ExitCode::kSuccess) {
+      EXPECT_EQ(text, "own/inside/x");
+    }
+  done = true;
+  exchange.join();
 }
 
 TEST_F(LeaveTest, OpensNoPipeAndWaitsForNone) {

@@ -275,7 +275,7 @@ TEST_F(RemovalTest, OfWhatATaskLeavesBehindWaitsForTheNextFarmWhereTooManyFilesA
 }
 
 TEST(PartNames, AreReadStrictly) {
-  EXPECT_EQ(process_of_part(".a.exr.123-4294967295.part"), 123);
+  EXPECT_TRUE(is_part_name(".a.exr.123-4294967295.part"));
   for (const char* name : {"", ".part", ".a.part", ".a.exr.-1-2.part", ".a.exr.1-x.part",
                            "a.1-2.part", ".a.exr.0-2.part", ".1-2.part", ".a.1-2.part~"})
     EXPECT_FALSE(is_part_name(name)) << name;

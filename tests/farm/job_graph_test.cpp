@@ -33,7 +33,7 @@ class JobGraphTest : public FarmTest {
           cells{cells_of(grid), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); },
                 grid.truth, grid.ours},
           engines(find_engines(grid.engines, {{}, false, {}, false, grid.outside})),
-          graph(cells, engines) {}
+          graph(cells, engines, std::chrono::minutes(10)) {}
     Planned(const Planned&) = delete;
     Grid grid;
     FarmCells cells;

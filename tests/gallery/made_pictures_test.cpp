@@ -181,6 +181,17 @@ TEST(Thumbnail, IsMadeWithoutTheSceneWhereThatCannotBeRead) {
   }));
 }
 
+TEST(Thumbnail, IsMadeAgainOnceTheSceneCanBeRead) {
+  const FakeFarm farm;
+  put_highlight(farm, 10, 10, 40);
+  const auto without = thumbnail(farm, [](const auto&, int, int) -> PixelFlags {
+    throw Error(ExitCode::kInput, "scene.xml: cannot read: File name too long");
+  });
+  const auto with = thumbnail(farm, left_half);
+  ASSERT_TRUE(without && with);
+  EXPECT_NE(without->pixel(100, 100)[0], with->pixel(100, 100)[0]);
+}
+
 TEST(Thumbnail, IsNotMadeWhereTheSceneCouldNotBeReadThisTime) {
   const FakeFarm farm;
   put_highlight(farm, 10, 10, 40);

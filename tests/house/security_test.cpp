@@ -251,45 +251,5 @@ TEST(SecurityPage, every_way_to_remove_is_found) {
   EXPECT_EQ(places_in_source(tree.path()).size(), 8u);
 }
 
-/// Ways around core/leave.hpp: leave that no user gave, and a name of others that is not opened by the gate.
-Problems ways_around_the_gate(const fs::path& root) {
-  static const std::regex opens(
-      R"re(\b(read_file|read_picture|read_image|InputFile|PictureFile)\s*\()re");
-  Problems problems;
-  for (const fs::path& file : project_files(root)) {
-    const std::string name = file.generic_string(), room = file.begin()->string();
-    if (!is_cpp(file) || room == "tests") continue;
-    const bool may_give = room == "cli" || room == "python" || name.starts_with("core/leave.");
-    std::size_t number = 0;
-    for (const std::string& code : code_of(root / file)) {
-      ++number;
-      const auto has = [&](const char* text) { return code.find(text) != code.npos; };
-      if (!may_give && (has("Leave::of_user(") || has("LOBELIA_ALLOW_COMMANDS_IN\")")))
-        problems.push_back(place(file, number) + "gives leave");
-      if (name == "reference_scenes/engines/outside/outside.cpp" && !has("open_picture(") &&
-          std::regex_search(code, opens))
-        problems.push_back(place(file, number) + "opens by name");
-    }
-  }
-  return problems;
-}
-
-TEST(Gate, alone_decides_what_starts_and_what_is_read) {
-  EXPECT_THAT(ways_around_the_gate(kRoot), IsEmpty());
-}
-
-TEST(Gate, ways_around_it_are_found) {
-  Scratch tree;
-  const fs::path outside = "reference_scenes/engines/outside/outside.cpp";
-  write(tree / "cli/a.cpp", "farm.leave = Leave::of_user(options.allow_commands);\n");
-  write(tree / "core/leave.cpp", "std::getenv(\"LOBELIA_ALLOW_COMMANDS_IN\");\n");
-  write(tree / outside, "return PictureFile(engine_.open_picture(axes));\n");
-  ASSERT_THAT(ways_around_the_gate(tree.path()), IsEmpty());
-  write(tree / "farm/a.cpp", "make_outside_engine(one, Leave::of_user(true));\n");
-  write(tree / outside, "read_picture(directory / name, \"\");\n");
-  EXPECT_THAT(ways_around_the_gate(tree.path()),
-              ElementsAre("farm/a.cpp:1: gives leave", outside.string() + ":1: opens by name"));
-}
-
 }  // namespace
 }  // namespace house

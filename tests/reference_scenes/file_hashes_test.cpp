@@ -77,6 +77,12 @@ TEST_F(FileHashesTest, RefusesWhatIsNoFileAndDoesWithoutAMemory) {
   hashes.save();
 }
 
+TEST_F(FileHashesTest, GivesUpAFileThatTakesTooLong) {
+  FileHashes hashes{fs::path()};
+  EXPECT_THROW(hashes.hash(InputFile(old_), std::chrono::seconds(0)), Error);
+  EXPECT_EQ(hashes.hash(InputFile(old_), std::chrono::hours(1)).sha256, hex(sha256_of_file(old_)));
+}
+
 class ContentTest : public FileHashesTest {
  protected:
   fs::path file(const std::string& name, const std::string& text) const {
@@ -111,6 +117,23 @@ TEST_F(ContentTest, IsNotMadeOfAFileThatAFaultHides) {
   EXPECT_NO_THROW(reader.add("library", "gone", directory_.path() / "gone"));
   EXPECT_NO_THROW(reader.add("library", "no file", directory_.path()));
   EXPECT_EQ(reader.content().files.size(), 2u);
+}
+
+TEST_F(ContentTest, SaysWhatIsWrongWithAHugeFile) {
+  FileHashes hashes{fs::path()};
+  ContentReader reader(hashes);
+  const fs::path huge = file("huge.bin", "");
+  fs::resize_file(huge, kMostHashedBytes + 1);
+  try {
+    reader.add("program", "", huge);
+    ADD_FAILURE() << "it was hashed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_EQ(error.what(), huge.string() +
+                                ": 8589934593 bytes; a file that an engine gets as an "
+                                "argument, or that it loads, is hashed, and may have "
+                                "8589934592");
+  }
 }
 
 TEST_F(ContentTest, OfADirectoryIsOfAllFilesButPythonsCaches) {

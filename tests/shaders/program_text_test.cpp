@@ -56,13 +56,44 @@ TEST(PlainText, EveryWayToWriteAnIncludeIsRefusedByItsLine) {
 }
 
 TEST(PlainText, WhatIsNoIncludeIsNotRefusedAndNoneIsLeftInComments) {
-  for (const char* text : {"// #include \"a\"\n", "/* #include \"a\"\n#include \"b\" */\n",
-                           "#define include 1\n", "float include;\n", "// a \\\n#include \"a\"\n",
-                           // Whoever takes this for a string must find no directive behind it.
-                           "string s = \"/*\";\n#include \"a\"\n/* */\n"}) {
+  for (const char* text :
+       {"// #include \"a\"\n", "/* #include \"a\"\n#include \"b\" */\n", "#define include 1\n",
+        "float include;\n", "// a \\\n#include \"a\"\n", "#define included\n#define f(x) #x\n"}) {
     EXPECT_EQ(refusal(text, ShaderText::kHlsl), "") << text;
     EXPECT_THAT(program_of(text, ShaderText::kHlsl).bytes, Not(HasSubstr("#include"))) << text;
   }
+}
+
+TEST(PlainText, AStringOfHlslHasNoComments) {
+  const auto text = [](const std::string& line, ShaderText language = ShaderText::kHlsl) {
+    return plain_text({language, "mine", line + "\n", {}});
+  };
+  EXPECT_EQ(text("a(\"//b\"); // c"), "a(\"//b\");  \n");
+  EXPECT_EQ(text("#define S \"/* x */\" /* y */"), "#define S \"/* x */\"  \n");
+  EXPECT_EQ(text("'\"' // c"), "'\"'  \n");
+  EXPECT_EQ(text("\"a\\\" // c"), "\"a\\\"  \n") << "glslang knows no escapes";
+  EXPECT_EQ(text("\"open // c\n/* d */"), "\"open // c\n \n") << "none goes beyond its line";
+  EXPECT_EQ(text("\"// c", ShaderText::kGlsl), "\" \n");
+  // Whether or not a compiler sees a string here, it finds no directive behind it.
+  EXPECT_THAT(refusal("string s = \"/*\";\n#include \"a\"\n/* */\n", ShaderText::kHlsl),
+              HasSubstr("mine:2: #include is not allowed"));
+  EXPECT_THAT(refusal("x \"/*\n*/ #include \"a\"\n", ShaderText::kHlsl),
+              HasSubstr("mine:2: #include is not allowed"));
+}
+
+TEST(PlainText, EveryLineBreakOfWgslEndsAComment) {
+  for (const std::string end :
+       {"\n", "\v", "\f", "\r", "\r\n", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"}) {
+    const auto functions = [&](ShaderText language) {
+      return functions_in(plain_text({language, "mine", "// a" + end + "float f() { }", {}}));
+    };
+    EXPECT_THAT(functions(ShaderText::kWgsl), testing::ElementsAre("f"));
+    // In GLSL only LF and CR end a line.
+    EXPECT_EQ(functions(ShaderText::kGlsl).empty(), end.find_first_of("\r\n") == end.npos);
+  }
+  EXPECT_THAT(
+      functions_in(plain_text({ShaderText::kWgsl, "mine", "// a\xc2\xa0 float f() { }", {}})),
+      testing::IsEmpty());
 }
 
 TEST(PlainText, LinesKeepTheirNumbersAndMacrosTheirLines) {

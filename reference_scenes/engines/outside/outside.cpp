@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <optional>
 
 #include "core/error.hpp"
@@ -55,10 +57,12 @@ class Outside final : public Engine {
   const EngineInfo& info() const override { return info_; }
   const EngineStatus& status() override;
   const OutsideEngine* outside() const override { return &engine_; }
-  std::string key_part(const AxisValues& axes) const override;
+  std::string key_part(const Film& film, const AxisValues& axes,
+                       std::chrono::duration<double> time_limit) const override;
 
   bool has_program() const { return !engine_.command.empty(); }
-  InputFile open_picture(const AxisValues& axes) const;
+  /// Throws Error(kInput) if it is no picture that the film justifies, and what key_part() met with it.
+  InputFile open_picture(const Film& film, const AxisValues& axes) const;
   std::vector<std::string> command(const AxisValues& axes, const Film& film, int threads,
                                    const std::string& scene, const std::string& picture) const;
   std::vector<std::string> environment(const fs::path& directory) const;
@@ -72,6 +76,8 @@ class Outside final : public Engine {
   std::string why_not_ready(EngineStatus& status) const;
   /// From `directory`.
   fs::path picture_of(const AxisValues& axes) const;
+  std::string key_of_picture(const Film& film, const AxisValues& axes,
+                             std::chrono::duration<double> time_limit) const;
 
   const OutsideEngine engine_;
   const Leave leave_;
@@ -79,7 +85,19 @@ class Outside final : public Engine {
   std::string effects_;
   EngineInfo info_;
   std::optional<EngineStatus> status_;
+  /// What keys have of a picture, so that each is hashed once for all cells: its hash, or why it has none. Without a hash
+  /// it is not read later either: the keys would not tell its contents apart.
+  struct PictureKey {
+    std::string sha256, why_not;
+  };
+  mutable std::map<std::string, PictureKey> keys_;
+  mutable std::mutex mutex_;
 };
+
+/// A picture for films of a size.
+std::string name_of(const fs::path& picture, const Film& film) {
+  return fmt::format("{} x {}: {}", film.width, film.height, picture.string());
+}
 
 /// Writes the scene in the form that the engine takes. Returns the name of its main file.
 std::string write_scene(const OutsideEngine& engine, const Scene& scene,
@@ -210,9 +228,21 @@ fs::path Outside::picture_of(const AxisValues& axes) const {
   });
 }
 
-InputFile Outside::open_picture(const AxisValues& axes) const {
-  return open_named(picture_of(axes), engine_.directory, leave_,
-                    fmt::format("engine {}", engine_.name));
+InputFile Outside::open_picture(const Film& film, const AxisValues& axes) const {
+  const fs::path name = picture_of(axes);
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = keys_.find(name_of(name, film));
+    if (found != keys_.end() && !found->second.why_not.empty())
+      throw Error(ExitCode::kInput, found->second.why_not);
+  }
+  auto file = open_named(name, engine_.directory, leave_, fmt::format("engine {}", engine_.name));
+  PictureFile::require_picture(file);
+  if (const std::uint64_t most = most_picture_bytes(film); file.size() > most)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: the file has {} bytes; a picture of {} x {} pixels may have {}",
+                            file.path().string(), file.size(), film.width, film.height, most));
+  return file;
 }
 
 std::vector<std::string> Outside::command(const AxisValues& axes, const Film& film, int threads,
@@ -242,17 +272,31 @@ std::vector<std::string> Outside::environment(const fs::path& directory) const {
   return all;
 }
 
-/// The picture's content, or the command and what it gets from the environment.
-std::string Outside::key_part(const AxisValues& axes) const {
-  if (!has_program()) {
-    try {
-      return FileHashes::of_user().hash(open_picture(axes)).sha256;
-    } catch (const Error& error) {
-      const fs::path file = fs::path(engine_.directory) / picture_of(axes);
-      if (error.code() != ExitCode::kInput || !is_out_of_reach(file, kMostHashedBytes)) throw;
-      return "unreadable";
-    }
+std::string Outside::key_of_picture(const Film& film, const AxisValues& axes,
+                                    std::chrono::duration<double> time_limit) const {
+  const std::string name = name_of(picture_of(axes), film);
+  const auto text_of = [](const PictureKey& key) {
+    return key.why_not.empty() ? key.sha256 : "unreadable";
+  };
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = keys_.find(name); found != keys_.end()) return text_of(found->second);
   }
+  PictureKey key;
+  try {
+    key.sha256 = FileHashes::of_user().hash(open_picture(film, axes), time_limit).sha256;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput || error.is_fault()) throw;
+    key.why_not = error.what();
+  }
+  const std::scoped_lock lock(mutex_);
+  return text_of(keys_.emplace(name, std::move(key)).first->second);
+}
+
+/// The picture's content, or the command and what it gets from the environment.
+std::string Outside::key_part(const Film& film, const AxisValues& axes,
+                              std::chrono::duration<double> time_limit) const {
+  if (!has_program()) return key_of_picture(film, axes, time_limit);
   std::string part = engine_.scene;
   for (const std::string& argument : command(axes, {}, 0, "{scene}", "{out}"))
     part += fmt::format("\n{}", argument);
@@ -299,7 +343,8 @@ ReferenceResult OutsideSession::read(const Scene& scene, const AxisValues& axes)
   Image image;
   ReferenceResult result =
       finished(scene, read_engine_picture(
-                          engine_.info(), [&] { return PictureFile(engine_.open_picture(axes)); },
+                          engine_.info(),
+                          [&] { return PictureFile(engine_.open_picture(scene.film, axes)); },
                           scene.film, image));
   result.image = std::move(image);
   result.record.method = "a picture that was there";

@@ -4,6 +4,8 @@
 
 #include "core/contained_reader.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/picture_file.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -95,19 +97,27 @@ fs::path EnvironmentMaps::inside(const std::string& file) const {
   };
   if (leaves(name)) refuse(file, fmt::format("has '..' in it{}", kAllowed));
   std::error_code error;
-  const fs::path path = fs::weakly_canonical(directory_ / name, error);
+  fs::path path = fs::weakly_canonical(directory_ / name, error);
   if (error) refuse(file, fmt::format("cannot be looked for: {}", error.message()));
-  if (const fs::path inner = path.lexically_relative(directory_); inner.empty() || leaves(inner))
+  require_inside(file, path);
+  return path;
+}
+
+void EnvironmentMaps::require_inside(const std::string& file, const fs::path& real_path) const {
+  if (!is_below(real_path, directory_))
     refuse(file,
            fmt::format("leads out of the scene file's directory by a symbolic link{}", kAllowed));
-  return path;
 }
 
 std::shared_ptr<const Image> EnvironmentMaps::read(const std::string& file) {
   const fs::path path = inside(file);
   auto& known = images_[path];
   if (known) return known;
-  auto image = std::make_shared<const Image>(read_picture(path, "", kSkyLimit).image);
+  InputFile opened(path);
+  // Of the open file: what the path leads to may have changed since.
+  require_inside(file, opened.real_path());
+  auto image = std::make_shared<const Image>(
+      read_picture(PictureFile(std::move(opened)), "", kSkyLimit).image);
   check_values(file, *image);
   pixels_ += std::int64_t(image->pixel_count());
   if (pixels_ > kMaxImagePixels)

@@ -21,6 +21,7 @@ class EnvironmentMaps {
 
  private:
   std::filesystem::path inside(const std::string& file) const;
+  void require_inside(const std::string& file, const std::filesystem::path& real_path) const;
 
   std::filesystem::path directory_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/sha256.hpp"
 #include "farm/chunk.hpp"
 #include "farm/job_graph.hpp"
 #include "lobelia_paths.hpp"
@@ -11,6 +12,8 @@
 
 namespace lobelia {
 namespace {
+
+namespace fs = std::filesystem;
 
 class HostileChunk : public testing::Test {
  protected:
@@ -64,6 +67,26 @@ TEST_F(HostileChunk, StartsNothingAndWritesNothingWithoutLeave) {
   }
   EXPECT_FALSE(std::filesystem::exists(directory_.path() / "cache"));
   EXPECT_FALSE(std::filesystem::exists(directory_.path() / "started"));
+}
+
+TEST_F(HostileChunk, IsNotDoneInPlaceOfTheOneThatWasPlanned) {
+  const fs::path file = directory_.path() / "chunk.json", cache = directory_.path() / "cache";
+  const Sha256Digest planned = sha256(good_.dump());
+  for (const std::string& other : {good_.dump() + " ", good_.dump(1), std::string()}) {
+    write_file(file, other);
+    try {
+      exec_chunk(file, 1, Leave::of_user(true), planned);
+      ADD_FAILURE() << "it was done";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kInput);
+      EXPECT_THAT(error.what(),
+                  testing::AllOf(testing::HasSubstr("not the chunk that was submitted"),
+                                 testing::HasSubstr(hex(sha256(other)) + ", not " + hex(planned))));
+    }
+    EXPECT_FALSE(fs::exists(cache));
+  }
+  write_file(file, good_.dump());
+  EXPECT_EQ(exec_chunk(file, 1, Leave::of_user(true), planned).done, 1u);
 }
 
 TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {

@@ -29,11 +29,12 @@ class FakeSlurmEndings : public FakeSlurm {
   SlurmOutcome run_with_reports(const std::vector<std::string>& nodes, const std::string& engine) {
     SlurmWork work = toy.work();
     work.write_chunk = [&, write = work.write_chunk](std::size_t number, auto places) {
-      write(number, places);
-      if (number >= nodes.size()) return;
+      const Sha256Digest planned = write(number, places);
+      if (number >= nodes.size()) return planned;
       ::setenv("SLURMD_NODENAME", nodes[number].c_str(), 1);
       const LeftUndone left{engine, "it broke"};
       write_chunk_report(work.run_directory, number, {&left, 1});
+      return planned;
     };
     return run_on_slurm(work, options);
   }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "farm/slurm/slurm_client.hpp"
+#include "records/cluster.hpp"
+#include "records/record.hpp"
 #include "tests/farm/slurm/fake_slurm.hpp"
 #include "tests/json.hpp"
 
@@ -296,6 +298,71 @@ TEST_F(FakeSlurm, IsGivenPathsWithAPercentSignAndNoneWithABackslash) {
   EXPECT_THAT(lines("submitted").front(), HasSubstr("50%% of it's/run/log/%A_%a.log"));
   ToyWork refused(in("back\\slash"), 1, 0);
   EXPECT_THROW(run_on_slurm(refused.work(), options), Error);
+}
+
+TEST_F(FakeSlurm, RunsNoChunkThatWasChangedAfterItWasSubmitted) {
+  jobs(1);
+  options.rounds = 1;
+  fs::rename(bin() / "sbatch", bin() / "sbatch.good");
+  fake("sbatch", R"(echo 'evil 0' > "$d/toy/run/chunks/0"; exec "$d/bin/sbatch.good" "$@")");
+  EXPECT_THAT(run_on_slurm(toy.work(), options).missing, ElementsAre("job000"));
+  EXPECT_THAT(toy.started(), IsEmpty());
+}
+
+TEST_F(FakeSlurm, GetsNoScriptThatAnotherHasPutIntoTheRunsDirectory) {
+  jobs(1);
+  fs::rename(bin() / "sbatch", bin() / "sbatch.good");
+  fake("sbatch", R"(for s in "$d"/toy/run/submit/*.sh; do echo ": > '$d/evil'" > "$s"; done
+exec "$d/bin/sbatch.good" "$@")");
+  EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
+  EXPECT_FALSE(fs::exists(in("evil")));
+  EXPECT_EQ(toy.finished(), "1\n");
+}
+
+TEST_F(FakeSlurm, NeverHearsTheNameOfAnotherRunsJobsFromAForgedRecord) {
+  jobs(1);
+  records::SlurmRun forged;
+  forged.round = 7;
+  forged.next_chunk = 5;
+  forged.arrays = {{41, 0, 1, 0, 1, "7-0", "900G"}};
+  for (const std::string name : {"lobelia-0123456789abcdef", "lobelia-", "mine", "x,y"}) {
+    forged.name = name;
+    records::write_record(toy.run_directory() / "slurm.json", forged);
+    fake("squeue", "echo \"$*\" >> \"$d/asked\"");
+    const SlurmStatus status = slurm_status(toy.run_directory());
+    EXPECT_THAT(status.foreign, AllOf(HasSubstr("slurm.json"), HasSubstr("'" + name + "'"),
+                                      HasSubstr("'" + status.name + "'")));
+    EXPECT_THAT(lines("asked"), ElementsAre(HasSubstr("--name=" + status.name)));
+    fs::remove(in("asked"));
+  }
+  // A run goes on with its own name, and gives away no number of a chunk twice.
+  said.clear();
+  EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
+  EXPECT_THAT(said, HasSubstr("names jobs 'x,y', which are left alone"));
+  for (const std::string& line : lines("asked")) EXPECT_THAT(line, Not(HasSubstr("x,y")));
+  EXPECT_THAT(arrays(), ElementsAre(AllOf(HasSubstr("--job-name=lobelia-"), Not(HasSubstr("x,y")),
+                                          HasSubstr("--comment=lobelia 8-5"))));
+  EXPECT_EQ(slurm_status(toy.run_directory()).foreign, "");
+}
+
+TEST_F(FakeSlurm, FindsARunByEachPathOfItsDirectoryAndByTheNameOfEarlierVersions) {
+  jobs(1);
+  options.detach = true;
+  const fs::path link = in("link");
+  fs::create_directory_symlink(directory_.path() / "toy", link);
+  run_on_slurm(toy.work(), options);
+  const std::string name = slurm_status(toy.run_directory()).name;
+  for (const fs::path& path : {link / "run", toy.run_directory() / ".", in("toy/results/../run")}) {
+    const SlurmStatus status = slurm_status(path);
+    EXPECT_EQ(status.name, name) << path;
+    EXPECT_EQ(status.foreign, "") << path;
+  }
+  records::SlurmRun earlier;
+  earlier.name = "lobelia-" + hex(sha256((link / "run").string())).substr(0, 16);
+  records::write_record(toy.run_directory() / "slurm.json", earlier);
+  EXPECT_EQ(slurm_status(link / "run").name, earlier.name);
+  EXPECT_EQ(slurm_status(link / "run").foreign, "");
+  EXPECT_NE(slurm_status(toy.run_directory()).foreign, "");
 }
 
 TEST_F(FakeSlurm, LeftAloneAfterSubmissionIsNotWaitedForOrCancelledAndTellsHowTheRunStands) {

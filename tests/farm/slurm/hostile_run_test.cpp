@@ -42,13 +42,17 @@ class HostileRun : public FarmTest {
     }
     return {ExitCode::kSuccess, ""};
   }
-  ExitCode finished() const {
+  /// The same of its last element, as it was submitted or after the record was changed.
+  std::pair<ExitCode, std::string> finished(const Leave& leave = {},
+                                            const records::FarmRun* planned = nullptr) const {
+    records::FarmRun hashed = planned ? *planned : record_;
+    hashed.command.clear();
     try {
-      finish_slurm_run(slurm_run_directory(out()), {});
+      finish_slurm_run(slurm_run_directory(out()), sha256(records::record_text(hashed)), leave);
     } catch (const Error& error) {
-      return error.code();
+      return {error.code(), error.what()};
     }
-    return ExitCode::kSuccess;
+    return {ExitCode::kSuccess, ""};
   }
   bool is_untouched() const { return files_in_farm() == 1 && !fs::exists(here("started")); }
   std::size_t files_in_farm() const {
@@ -76,7 +80,7 @@ TEST_F(HostileRun, StartsNoProgramOfItsRecordWithoutLeave) {
   EXPECT_EQ(code, ExitCode::kUsage);
   EXPECT_THAT(why,
               AllOf(HasSubstr("start '" + program + "' as povray"), HasSubstr("--allow-commands")));
-  EXPECT_EQ(finished(), ExitCode::kUsage);
+  EXPECT_EQ(finished().first, ExitCode::kUsage);
   EXPECT_TRUE(is_untouched());
   EXPECT_EQ(attached(Leave::of_user(true)).first, ExitCode::kEngine) << "there is no Slurm";
   EXPECT_TRUE(fs::exists(here("started")));
@@ -112,7 +116,7 @@ TEST_F(HostileRun, WritesOutsideOfItsFarmOnlyWithLeave) {
   EXPECT_EQ(code, ExitCode::kUsage);
   EXPECT_THAT(why, AllOf(HasSubstr("write into the cache '" + record_.cache + "'"),
                          HasSubstr("write a gallery into '" + record_.gallery + "'")));
-  EXPECT_EQ(finished(), ExitCode::kUsage);
+  EXPECT_EQ(finished().first, ExitCode::kUsage);
   for (const char* name : {"elsewhere", "site"}) EXPECT_FALSE(fs::exists(here(name))) << name;
   EXPECT_TRUE(is_untouched());
 }
@@ -125,6 +129,28 @@ TEST_F(HostileRun, WritesThroughNoLinkInItsFolder) {
   EXPECT_EQ(code, ExitCode::kOutput);
   EXPECT_THAT(why, HasSubstr("chunks: cannot write: a symbolic link"));
   EXPECT_TRUE(fs::is_empty(here("elsewhere")));
+}
+
+TEST_F(HostileRun, IsNotEndedByARecordThatWasChangedAfterItsLastElementWasSubmitted) {
+  grid("16");
+  const records::FarmRun planned = record_;
+  const auto change = [&](auto member, const std::string& to) {
+    record_ = planned;
+    record_.*member = to;
+    records::write_record(slurm_run_directory(out()) / "run.json", record_);
+    const auto [code, why] = finished(Leave::of_user(true), &planned);
+    EXPECT_EQ(code, ExitCode::kInput) << to;
+    EXPECT_THAT(why, HasSubstr("other things than when this job was submitted")) << to;
+    EXPECT_TRUE(is_untouched());
+  };
+  change(&records::FarmRun::gallery, here("site").string());
+  change(&records::FarmRun::cache, here("elsewhere").string());
+  change(&records::FarmRun::grid, here("evil.xml").string());
+  // Another client of the run may have another command.
+  record_ = planned;
+  record_.command = {"lobelia", "farm", "--detach"};
+  records::write_record(slurm_run_directory(out()) / "run.json", record_);
+  EXPECT_EQ(finished(Leave::of_user(true), &planned), std::pair(ExitCode::kSuccess, std::string()));
 }
 
 TEST_F(HostileRun, NeedsLeaveForACacheBehindALinkInTheFarm) {

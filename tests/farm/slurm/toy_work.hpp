@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/slurm_run.hpp"
 
@@ -35,9 +36,10 @@ class ToyWork {
     // Its directory has what a shell would trip over. Its own name may have no blank: by proctrack/linuxproc of
     // Slurm 22.05 such a process gets no signal.
     write_file(program(), R"sh(#!/bin/sh
-# farm exec-chunk RUN NUMBER, or farm finish RUN
+# farm exec-chunk RUN NUMBER --sha256 HASH, or farm finish RUN
 results=$(dirname "$3")/results
 [ "$2" = finish ] && { ls "$results" | wc -l > "$results/../finished"; exit; }
+[ "$(sha256sum < "$3/chunks/$4")" = "$6  -" ] || { echo "chunk $4 is another"; exit 9; }
 part=
 trap 'rm -f "$part"; exit 143' TERM
 while read -r name seconds; do
@@ -86,6 +88,7 @@ exit ${failed:-0}
               for (const std::size_t job : jobs)
                 text += fmt::format("{} {}\n", missing_[job].name, missing_[job].seconds);
               write_file(path, text);
+              return sha256(text);
             },
             [this](std::span<const std::size_t> jobs, const std::string& why) {
               for (const std::size_t job : jobs) given_up_[missing_[job].name] = why;

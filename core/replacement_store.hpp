@@ -1,0 +1,40 @@
+// The directory that a replacement of files needs in their folder (core/replacement.hpp).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "core/byte_locks.hpp"
+#include "core/removal.hpp"
+#include "core/replacement_journal.hpp"
+
+namespace lobelia {
+
+/// Directories in it, each with a journal and the files of its entries.
+inline constexpr char kNextStage[] = "next", kNowStage[] = "now", kLastStage[] = "last",
+                      kBackStage[] = "back";
+inline constexpr char kJournalFile[] = "journal";
+
+/// The directory of a folder. Holds none if there is none that counts, as of somebody else where everybody may make entries.
+HeldDirectory trusted_store(const std::filesystem::path& folder);
+/// The same, and makes it. Throws Error(kOutput) if it is somebody else's, or has not our mark: nothing in it is ours then.
+HeldDirectory made_store(const HeldDirectory& root);
+/// Whether the directory of the folder `root` has our mark.
+bool has_our_mark(const HeldDirectory& root);
+
+/// The lock that keeps out other processes. Throws Error(kOutput) if it cannot be opened.
+ByteLocks opened_lock(const HeldDirectory& root, const HeldDirectory& store);
+/// Waits while another process has it. Throws Error(kOutput) if it cannot be had; Error(kInterrupted).
+ByteLocks::Claim claimed(const HeldDirectory& store, const ByteLocks& locks);
+
+/// Makes the stage "next" for files of these directories below `root`. Only who may read all of them may read it.
+HeldDirectory make_next(const HeldDirectory& root, const HeldDirectory& store,
+                        std::span<const std::filesystem::path> directories);
+
+/// Throws Error(kInput) if it is missing, damaged or a copy from another place.
+ReplacementJournal read_journal(const HeldDirectory& store, const char* stage);
+/// The inode of an open directory; 0 if that cannot be told.
+std::uint64_t inode_of(const HeldDirectory& held);
+
+}  // namespace lobelia

@@ -1,0 +1,277 @@
+// core/leave.hpp is the gate for what files of others say. Whoever gives leave, starts a program, or opens a file where
+// names may come from such a file is in a list here, with the reason why it needs no gate or has passed it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "tests/house/tree.hpp"
+
+namespace house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using Problems = std::vector<std::string>;
+
+/// What a file may do beside the gate.
+struct Allowed {
+  std::string file, because;
+  std::vector<std::string> code;  ///< a part of each line, in their order
+};
+
+const std::vector<Allowed>& allowed_places() {
+  static const std::vector<Allowed> all{
+      {"core/contained_reader.cpp", "our own decoder", {"spawn({.arguments = {companion_file("}},
+      {"core/picture_reader.cpp", "a copy of itself", {"child = ::fork()"}},
+      {"core/process.cpp", "is how all programs start", {"spawn(request)"}},
+      {"core/process_keeper.cpp", "the same", {"pid = ::vfork()", "::execv(arguments[0]"}},
+      {"core/spawn.cpp",
+       "the same",
+       {"int plain_clone(", "SYS_execve, child", "plain_clone(exec_child"}},
+      {"farm/axes.cpp",
+       "a scene may be any file; it is told from others by its first element",
+       {"read_scene(directory / text)"}},
+      {"farm/cache_layout.cpp", "the marker of a cache", {"std::ifstream stream(file)"}},
+      {"farm/cell_directory.cpp", "what the farm wrote", {"read_file(cached, ", "kCellRecordFile"}},
+      {"farm/chunk.cpp",
+       "the chunk itself; what it asks for passes the gate",
+       {"const InputFile opened(file)", "read_file(opened, "}},
+      {"farm/explain.cpp",
+       "what the farm wrote",
+       {"read_file(directory_ / \"scene.xml\"", "kCellRecordFile"}},
+      {"farm/farm_engines.cpp", "the farm's own farm.json", {"read_file(file, "}},
+      {"farm/grid_reader.cpp",
+       "the grid itself, and its scene, which may be any file",
+       {"read_scene(directory_ / file)", "const InputFile file(path)",
+        "read_file(file, kMaxGridBytes)"}},
+      {"farm/own_identity.cpp",
+       "the dynamic loader lists our own libraries",
+       {"run_process({loader, "}},
+      {"farm/result_cache.cpp",
+       "files of the cache, by names of ours",
+       {"sha256_of_file(path)", "sha256_of_file(file)", "kManifestFile", "failure_file(key",
+        "\"contents\""}},
+      {"farm/slurm/doctor.cpp",
+       "its own directory, and /bin/true",
+       {"\"renamed\"", "run_process({\"/bin/true\"}", "kAnswer", "kToken"}},
+      {"farm/slurm/run_parts.cpp",
+       "logs and the record of the run, by names of ours",
+       {"O_NOFOLLOW", "records::SlurmRun>(path)"}},
+      {"farm/slurm/slurm_client.cpp",
+       "Slurm's programs by their names",
+       {"run_process(arguments, "}},
+      {"farm/slurm/slurm_farm.cpp",
+       "the run's record; what it asks for passes the gate",
+       {"InputFile file(slurm_run_directory(directory)", "read_file(file, "}},
+      {"farm/upkeep.cpp",
+       "what the farm wrote",
+       {"read_file(file, ", "sha256_of_file(cell.path()", "records::Cell>(file)"}},
+      {"records/farm_file.cpp", "the farm's own farm.json", {"read_file(path, "}},
+      {"records/project.cpp", "a project that the user names", {"read_file(path, "}},
+      {"records/record.hpp", "is how records are read", {"read_file(path, "}},
+      {"reference_scenes/content.cpp",
+       "hashes files that were found or opened by others",
+       {"KnownHashes>(file_)", "hash(InputFile(path))", "sha256_of_file(file, ",
+        "InputFile opened(file)"}},
+      {"reference_scenes/engine_content.cpp",
+       "the loader's log in our directory",
+       {"read_file(trace, "}},
+      {"reference_scenes/engine_program.cpp",
+       "engines of the catalogue, by the user's path or $PATH; their pictures in our directory",
+       {"run_process({name, \"--version\"}", "run_process({name, \"--version\"}",
+        "run_process(arguments, process)", "PictureFile(file)", "read_picture(open()"}},
+      {"reference_scenes/engines/browser/engine_browser.cpp",
+       "an engine of the catalogue and its page",
+       {"::fork()", "\"/dev/null\", O_RDWR", "::execvp(\"chromium\"", "page(page_file())",
+        "std::system("}},
+      {"reference_scenes/engines/outside/outside.cpp",
+       "status() asks for leave first, and no session is opened without it; pictures are opened by open_named()",
+       {"run_process(version_command_, ", "PictureFile(engine_.open_picture(",
+        "run_engine(engine_.info(), "}},
+      {"reference_scenes/engines/outside/outside_reader.cpp",
+       "the engine file itself, which the user or the grid names",
+       {"const InputFile file(path)", "read_file(file, kMostBytes)"}},
+      {"reference_scenes/engines/povray/povray.cpp",
+       "an engine of the catalogue",
+       {"run_engine(kPovrayInfo"}},
+      {"reference_scenes/engines/programs/scene_program.cpp",
+       "a program that gets its files from us",
+       {"std::ifstream in(file)", "read_scene(file)"}},
+      {"reference_scenes/persistent_session.cpp",
+       "an engine of the catalogue",
+       {"run_engine(engine, "}},
+      {"renderer/scene/lights/light_reader.cpp",
+       "a picture below the scene, which is checked once it is open",
+       {"InputFile opened(path)", "read_picture(PictureFile(std::move(opened)"}},
+      {"renderer/scene/scene_reader.cpp", "the scene itself", {"read_file(path, kMaxSceneBytes)"}},
+      {"shaders/run_shaders.cpp",
+       "our runner, and its answer in our directory",
+       {"read_file(file, kMostInvocations", "run_process(command, options)"}},
+      {"shaders/runner/runner.cpp", "our runner reads what we gave it", {"std::ifstream in(file"}},
+      {"shaders/spirv.cpp", "a compiler's answer in our directory", {"read_file(scratch.path()"}},
+      {"studies/cost/engine_benchmark.cpp",
+       "ourselves, in our directory",
+       {"run_process(arguments, {})", "read_image(picture)", "\"render.json\"",
+        "\"reference.json\""}},
+  };
+  return all;
+}
+
+/// A line without its comment; empty for one of the preprocessor.
+std::string code_in(const std::string& line) {
+  static const std::regex comment(R"re(//.*$|^\s*#.*$)re");
+  return std::regex_replace(line, comment, "");
+}
+
+/// Calls, and declarations of objects that open what they are given, also as members and in templates. Parameters of
+/// functions that are declared begin with "const".
+bool opens(const std::string& code) {
+  static const std::regex objects(
+      R"re(\b(InputFile|PictureFile)\b(?!\s*[&:;]|\(\)|\s+[\w:]+\((const\b|\))))re"),
+      calls(R"re(\b(read_file|read_picture|read_image|read_record|read_scene|layer_names|)re"
+            R"re(sha256_of_file|open_beneath\w*)\b(?!\s*\(const\b)|\bw?i?fstream\b|\bfilebuf\b|)re"
+            R"re(\bf(d|re)?open\b|(^|[^\w>])::(openat2?|open)\s*\(|\bSYS_openat2?\b)re");
+  return std::regex_search(code, objects) || std::regex_search(code, calls);
+}
+
+bool starts(const std::string& code) {
+  static const std::regex pattern(
+      R"re(\b(execve?|execvp|fexecve|posix_spawnp?|v?fork|system|popen)\s*\((?!const\b)|\bSYS_execve\b|)re"
+      R"re(\bplain_clone\s*\(|\brun_(process|engine)\b(?!\s*\((const\b|\)))|\bspawn\s*\((?!const\b|d1::))re");
+  return std::regex_search(code, pattern);
+}
+
+/// Ways around the gate: leave that no user gave, and what opens or starts without being allowed.
+Problems ways_around_the_gate(const fs::path& root, const std::vector<Allowed>& allowed) {
+  // Where no names come from the user himself.
+  static const std::set<std::string> gated{"accuracy",         "farm",    "records", "renderer",
+                                           "reference_scenes", "shaders", "studies"};
+  static const std::set<std::string> not_installed{"tests", "bench", "fuzz", "docs", "examples"};
+  std::map<std::string, std::vector<std::string>> left;
+  for (const Allowed& one : allowed) left[one.file] = one.code;
+  Problems problems;
+  for (const fs::path& file : project_files(root)) {
+    const std::string name = file.generic_string(), room = file.begin()->string();
+    if (!is_cpp(file) || not_installed.contains(room)) continue;
+    const bool may_give = room == "cli" || room == "python" || name.starts_with("core/leave.");
+    std::size_t number = 0;
+    for (const std::string& line : lines(read(root / file))) {
+      ++number;
+      const std::string code = code_in(line);
+      const auto has = [&](const std::string& text) { return code.find(text) != code.npos; };
+      if (!may_give && (has("Leave::of_user(") || has("LOBELIA_ALLOW_COMMANDS_IN\"")))
+        problems.push_back(place(file, number) + "gives leave");
+      const bool starting = starts(code);
+      if (!starting && !(gated.contains(room) && opens(code))) continue;
+      auto& parts = left[name];
+      const auto part = std::find_if(parts.begin(), parts.end(), has);
+      if (part != parts.end())
+        parts.erase(part);
+      else
+        problems.push_back(place(file, number) + (starting ? "starts: " : "opens: ") +
+                           code.substr(std::min(code.find_first_not_of(' '), code.size())));
+    }
+  }
+  for (const auto& [file, parts] : left)
+    for (const std::string& part : parts) problems.push_back(file + ": has no more: " + part);
+  return problems;
+}
+
+TEST(Gate, alone_decides_what_starts_and_what_is_read) {
+  EXPECT_THAT(ways_around_the_gate(kRoot, allowed_places()), IsEmpty())
+      << "If it needs no leave or has it, add a line to allowed_places(), with the reason.";
+  for (const Allowed& one : allowed_places()) EXPECT_NE(one.because, "") << one.file;
+}
+
+TEST(Gate, leave_that_no_user_gave_is_found) {
+  Scratch tree;
+  write(tree / "cli/a.cpp", "farm.leave = Leave::of_user(options.allow_commands);\n");
+  write(tree / "core/leave.cpp", "std::getenv(\"LOBELIA_ALLOW_COMMANDS_IN\");\n");
+  ASSERT_THAT(ways_around_the_gate(tree.path(), {}), IsEmpty());
+  write(tree / "farm/a.cpp", "make_outside_engine(one, Leave::of_user(true));\n");
+  EXPECT_THAT(ways_around_the_gate(tree.path(), {}), ElementsAre("farm/a.cpp:1: gives leave"));
+}
+
+/// One line of a source file by itself.
+Problems of_line(const std::string& line, const std::string& file = "farm/a.cpp") {
+  Scratch tree;
+  write(tree / file, line + "\n");
+  return ways_around_the_gate(tree.path(), {});
+}
+
+TEST(Gate, everything_that_opens_is_found) {
+  for (const std::string line : {"InputFile file(name);",
+                                 "const InputFile file{directory / name};",
+                                 "hash(InputFile(path));",
+                                 "auto f = std::make_unique<InputFile>(name);",
+                                 "std::optional<PictureFile> later;",
+                                 "InputFile member_;",
+                                 "PictureFile f(std::move(file));",
+                                 "PictureFile(name).known_format();",
+                                 "std::ifstream in(name);",
+                                 "std::ifstream(name) >> x;",
+                                 "std::fstream both(name);",
+                                 "std::basic_filebuf<char> b; std::filebuf c;",
+                                 "FILE* f = std::fopen(name, \"r\");",
+                                 "const auto hash = hex(sha256_of_file(name));",
+                                 "text = read_file(name, 100);",
+                                 "image = read_image(name);",
+                                 "std::ranges::transform(names, out, read_image);",
+                                 "auto p = read_picture(name, layer);",
+                                 "x = records::read_record<Cell>(name);",
+                                 "scene = read_scene(name);",
+                                 "layer_names(name)",
+                                 "int f = ::open(name, O_RDONLY);",
+                                 "::openat(d, name, 0);",
+                                 "::syscall(SYS_openat2, d);",
+                                 "open_beneath(d, {name});"})
+    EXPECT_THAT(of_line(line), ElementsAre(StartsWith("farm/a.cpp:1: opens: "))) << line;
+}
+
+TEST(Gate, everything_that_starts_a_program_is_found_in_every_room) {
+  for (const std::string room : {"cli", "core", "gallery", "farm"})
+    for (const std::string line :
+         {"const auto result = run_process(command, options);", "run_process({name}, {});",
+          "auto run = &run_process;",
+          "return run_engine(info, arguments, home, process, o, ended);",
+          "::execv(path, arguments);", "execvp(path, arguments);", "std::system(line.c_str());",
+          "::posix_spawnp(&pid, p);", "FILE* p = popen(line, \"r\");", "if (::fork() == 0) {",
+          "child = spawn(request);"})
+      EXPECT_THAT(of_line(line, room + "/a.cpp"),
+                  ElementsAre(StartsWith(room + "/a.cpp:1: starts: ")))
+          << line;
+}
+
+TEST(Gate, what_neither_opens_nor_starts_is_not_found) {
+  for (const std::string line :
+       {"class PictureFile;", "std::string read_file(const fs::path& path, std::uint64_t most);",
+        "void require(const InputFile& file);", "InputFile open_picture(const Film& film) const;",
+        "InputFile Outside::open_picture(const Film& film) const {", "InputFile copy() const;",
+        "const std::function<PictureFile()>& open", "// InputFile file(name);",
+        "#include \"core/files.hpp\"", "ProcessResult run_process(const Arguments& a);",
+        "while (next()) run_process();", "file = open_named(name, directory, leave, reader);",
+        "const std::string text = spawned(one);", "View::open(path);"})
+    EXPECT_THAT(of_line(line), IsEmpty()) << line;
+  // Names that the user gives on the command line.
+  EXPECT_THAT(of_line("Image a = read_image(options.a);", "cli/a.cpp"), IsEmpty());
+}
+
+TEST(Gate, a_place_is_allowed_once_and_only_as_long_as_it_is_there) {
+  Scratch tree;
+  const std::vector<Allowed> allowed{{"farm/a.cpp", "it is the grid", {"InputFile file(path)"}}};
+  write(tree / "farm/a.cpp", "const InputFile file(path);\n");
+  EXPECT_THAT(ways_around_the_gate(tree.path(), allowed), IsEmpty());
+  write(tree / "farm/a.cpp", "const InputFile file(path);\nconst InputFile file(path);\n");
+  EXPECT_THAT(ways_around_the_gate(tree.path(), allowed),
+              ElementsAre("farm/a.cpp:2: opens: const InputFile file(path);"));
+  write(tree / "farm/a.cpp", "const InputFile file(evil);\n");
+  EXPECT_THAT(ways_around_the_gate(tree.path(), allowed),
+              ElementsAre("farm/a.cpp:1: opens: const InputFile file(evil);",
+                          "farm/a.cpp: has no more: InputFile file(path)"));
+}
+
+}  // namespace
+}  // namespace house
