@@ -205,7 +205,8 @@ std::vector<NewReference> new_references(const CompareArguments& options, const 
   const std::vector<fs::path> folders = folders_of_references(job.pictures);
   const bool is_in_folders = job.pictures.csv.empty() && !folders.empty();
   const fs::path trusted =
-      fs::path(options.project.empty() ? job.pictures.csv : options.project).parent_path();
+      fs::path(options.choice.project.empty() ? job.pictures.csv : options.choice.project)
+          .parent_path();
   std::set<const PairReport*> seen;  // its warnings are problems of their own
   for (const Problem& problem : problems(report))
     if (problem.pair && problem.weight != Problem::Weight::kNotice &&
