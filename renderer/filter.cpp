@@ -20,6 +20,12 @@ constexpr int kSteps = 4096;
 std::span<const std::string_view> filter_names() { return kFilterNames; }
 std::string_view name(Filter filter) { return kFilterNames.at(filter.index); }
 
+double filter_value(Filter filter, double x) {
+  static constexpr auto kValues = map_types<double (*)(double)>(
+      Filters{}, []<class F>() -> double (*)(double) { return &F::value; });
+  return kValues.at(filter.index)(x);
+}
+
 int reach_of(Filter filter) { return int(std::ceil(filter.radius + 0.5)); }
 
 std::optional<Filter> find_filter(std::string_view name) {
@@ -31,13 +37,10 @@ std::optional<Filter> find_filter(std::string_view name) {
 
 FilterSampler::FilterSampler(Filter filter) : box_(filter.index == 0), radius_(filter.radius) {
   if (box_) return;
-  static constexpr auto kValues = map_types<double (*)(double)>(
-      Filters{}, []<class F>() -> double (*)(double) { return &F::value; });
-  const auto value = kValues.at(filter.index);
   const auto integrate = [&](Axis& axis, double sign) {
     axis.cumulative.push_back(0);
     for (int i = 0; i < kSteps; ++i) {
-      const double here = sign * value(2 * (i + 0.5) / kSteps - 1);
+      const double here = sign * filter_value(filter, 2 * (i + 0.5) / kSteps - 1);
       axis.cumulative.push_back(axis.cumulative.back() + std::max(0.0, here));
     }
     const double total = axis.cumulative.back();

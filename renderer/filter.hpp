@@ -19,6 +19,8 @@ struct Filter {
 
 std::span<const std::string_view> filter_names();
 std::string_view name(Filter filter);
+/// The filter's value along one axis, not normalised; x in [-1, 1], in units of the radius.
+double filter_value(Filter filter, double x);
 /// The distance in pixels up to which samples may affect a pixel: the radius and half a pixel, rounded up.
 int reach_of(Filter filter);
 /// The filter with the default radius of its source.

@@ -23,8 +23,12 @@ void require_single_rays(const Scene& scene, std::string_view what) {
                             what, kMaxSpheresByRay, found));
 }
 
+Vec3 film_ray(const CameraFrame& frame, double x, double y) {
+  return frame.forward + frame.film_u(x) * frame.right + frame.film_v(y) * frame.up;
+}
+
 Vec3 centre_ray(const CameraFrame& frame, int x, int y) {
-  return frame.forward + frame.film_u(x + 0.5) * frame.right + frame.film_v(y + 0.5) * frame.up;
+  return film_ray(frame, x + 0.5, y + 0.5);
 }
 
 std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) {
@@ -73,6 +77,30 @@ std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& h
   return here;
 }
 
+std::optional<HighlightPlace> highlight_at(const Scene& scene, int light, const Hit& hit,
+                                           Vec3 to_eye) {
+  const auto here = light_at(scene, light, hit);
+  if (!here) return std::nullopt;
+  const Material& material =
+      scene.materials.at(std::size_t(scene.spheres.at(std::size_t(hit.sphere)).material));
+  const Highlight& highlight = material.highlight;
+  const Vec3 to_light = here->to_light;
+  HighlightPlace place{};
+  place.n_dot_l = dot(hit.normal, to_light);
+  place.n_dot_v = dot(hit.normal, to_eye);
+  const Rgb reflected =
+      here->irradiance *
+      fresnel_factor(material.fresnel, material.specular_reflectance, to_eye, to_light);
+  place.irradiance = (reflected.r + reflected.g + reflected.b) / 3;
+  place.scale = geometry_factor(highlight.model, highlight.exponent, place.n_dot_l, place.n_dot_v) *
+                place.irradiance;
+  place.reflection = angle_between(2 * place.n_dot_v * hit.normal - to_eye, to_light);
+  place.half_vector = angle_between(hit.normal, normalize(to_light + to_eye));
+  place.angle =
+      info(highlight.model).angle == LobeAngle::kReflection ? place.reflection : place.half_vector;
+  return place;
+}
+
 HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
   require_single_rays(scene, "the angles of a highlight");
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
@@ -81,8 +109,6 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
   const std::vector nowhere(pixels, kNaN);
   HighlightMap map{width,   height,  nowhere, nowhere, nowhere,
                    nowhere, nowhere, nowhere, nowhere, std::vector(pixels, 0.0)};
-  const Material& material = scene.materials.at(scene.spheres.at(sphere).material);
-  const LobeAngle lobe_angle = info(material.highlight.model).angle;
   const double pixel_area = 4 * frame.half_width * frame.half_height / double(pixels);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -91,21 +117,15 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
     }
 
   for_each_pixel_of(scene, sphere, [&](std::size_t i, const Hit& hit, Vec3 to_eye) {
-    const auto here = light_at(scene, light, hit);
-    if (!here) return;
-    const Vec3 to_light = here->to_light;
-    map.n_dot_l[i] = dot(hit.normal, to_light);
-    map.n_dot_v[i] = dot(hit.normal, to_eye);
-    const Rgb reflected =
-        here->irradiance *
-        fresnel_factor(material.fresnel, material.specular_reflectance, to_eye, to_light);
-    map.irradiance[i] = (reflected.r + reflected.g + reflected.b) / 3;
-    map.scale[i] = geometry_factor(material.highlight.model, material.highlight.exponent,
-                                   map.n_dot_l[i], map.n_dot_v[i]) *
-                   map.irradiance[i];
-    map.reflection[i] = angle_between(2 * map.n_dot_v[i] * hit.normal - to_eye, to_light);
-    map.half_vector[i] = angle_between(hit.normal, normalize(to_light + to_eye));
-    map.angle[i] = lobe_angle == LobeAngle::kReflection ? map.reflection[i] : map.half_vector[i];
+    const auto place = highlight_at(scene, light, hit, to_eye);
+    if (!place) return;
+    map.angle[i] = place->angle;
+    map.reflection[i] = place->reflection;
+    map.half_vector[i] = place->half_vector;
+    map.n_dot_l[i] = place->n_dot_l;
+    map.n_dot_v[i] = place->n_dot_v;
+    map.irradiance[i] = place->irradiance;
+    map.scale[i] = place->scale;
   });
   return map;
 }

@@ -20,7 +20,10 @@ std::string beyond_single_rays(const Scene& scene);
 /// Throws Error(kInput) if there are such parts; `what` was asked for: "edges".
 void require_single_rays(const Scene& scene, std::string_view what);
 
-/// From the camera through the centre of pixel (x, y), to the film at distance 1; not normalised.
+/// From the camera through a place on the film, in pixels from its upper left corner, to the film at distance 1; not
+/// normalised.
+Vec3 film_ray(const CameraFrame& frame, double x, double y);
+/// Through the centre of pixel (x, y).
 Vec3 centre_ray(const CameraFrame& frame, int x, int y);
 
 /// The nearest sphere along a ray of unit direction.
@@ -35,7 +38,20 @@ void for_each_pixel_of(
 /// by another sphere. (A sphere hides a lamp that lies on it below the lamp's horizon.)
 std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit);
 
-/// The geometry of the highlight of one light on one sphere, at the pixels' centres in reading order. NaN where a
+/// The geometry of the highlight of one light at one place of a sphere.
+struct HighlightPlace {
+  double angle;             ///< the lobe's angle, radians: one of the next two
+  double reflection;        ///< between the light and the mirror direction
+  double half_vector;       ///< between the normal and the half vector
+  double n_dot_l, n_dot_v;  ///< cosines at the light's and at the eye's side
+  double irradiance;        ///< `scale` without the geometry factor
+  double scale;             ///< as HighlightMap has it
+};
+/// Nothing where the light does not reach the place, as light_at() has it.
+std::optional<HighlightPlace> highlight_at(const Scene& scene, int light, const Hit& hit,
+                                           Vec3 to_eye);
+
+/// The same for every pixel, at the pixels' centres in reading order. NaN where a
 /// pixel does not see the sphere, or the light does not reach it: it is below the horizon (N.L <= 0) or another
 /// sphere hides it.
 struct HighlightMap {
