@@ -161,4 +161,28 @@ void SceneOverrides::apply(Scene& scene) const {
   replace(seed_, "--seed", 0, 0x1p53, scene.sampler.seed);  // what a scene file can hold
 }
 
+CLI::Option* FilterOption::add_to(OptionGroup& group) {
+  return group.add("--filter", text_, "NAME[,RADIUS]",
+                   fmt::format("How the pictures were averaged over their pixels, the radius in "
+                               "pixels: {}; none: they show their pixels' centres. Usually the "
+                               "scene's filter if it has several samples, or else what fits",
+                               join(filter_names())));
+}
+
+std::optional<bool> FilterOption::apply(Film& film) const {
+  constexpr std::string_view kNone = "none";
+  constexpr double kSmallest = 0.1, kLargest = 16;  // as in a scene file
+  if (text_.empty()) return std::nullopt;
+  if (text_ == kNone) return false;
+  const std::size_t comma = text_.find(',');
+  film.filter = chosen(text_.substr(0, comma), "--filter", filter_names(),
+                       join(filter_names()) + ", none", find_filter);
+  if (comma == std::string::npos) return true;
+  if (!parse_number(std::string_view(text_).substr(comma + 1), film.filter.radius) ||
+      !(film.filter.radius >= kSmallest && film.filter.radius <= kLargest))
+    throw Error(ExitCode::kUsage, fmt::format("--filter '{}': a radius is {:g} to {:g} pixels",
+                                              printable(text_), kSmallest, kLargest));
+  return true;
+}
+
 }  // namespace lobelia::cli

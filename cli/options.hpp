@@ -118,4 +118,16 @@ class SceneOverrides {
   std::optional<std::uint64_t> seed_;
 };
 
+/// --filter NAME[,RADIUS]: the filter with which pictures of a scene were averaged over their pixels.
+class FilterOption {
+ public:
+  /// This object has to live as long as the command.
+  CLI::Option* add_to(OptionGroup& group);
+  /// Sets the film's filter, and tells whether pixels are means; nothing if the option was left out. Throws Error(kUsage).
+  std::optional<bool> apply(Film& film) const;
+
+ private:
+  std::string text_;
+};
+
 }  // namespace lobelia::cli

@@ -96,6 +96,7 @@ struct ProfileArguments {
   std::string a, b, scene, json, csv, svg;
   std::optional<int> light, sphere;
   SceneOverrides overrides;
+  FilterOption filter;
   std::string at, region;
   double least_share = kLeastShare;
   NoiseOfPicture noise_a, noise_b;
@@ -120,10 +121,11 @@ std::pair<std::string, std::string> picture_names(const ProfileArguments& option
 constexpr std::size_t kMostHighlights = 64;
 
 std::vector<records::Profile> profiles_of(const Scene& scene, const ProfileArguments& options,
-                                          const NamedImages& images, const NoiseOfImages& noise) {
+                                          const NamedImages& images, const NoiseOfImages& noise,
+                                          std::optional<PixelsShow> shown) {
   if (options.light || options.sphere)
     return {profile_scene(scene, options.light.value_or(0), options.sphere.value_or(0), images,
-                          true, noise)};
+                          true, noise, shown)};
   const auto highlights = highlights_of(scene);
   if (highlights.empty())
     throw Error(
@@ -137,7 +139,7 @@ std::vector<records::Profile> profiles_of(const Scene& scene, const ProfileArgum
                     options.scene, highlights.size(), kMostHighlights));
   std::vector<records::Profile> profiles;
   for (const auto& [sphere, light] : highlights)
-    profiles.push_back(profile_scene(scene, light, sphere, images, true, noise));
+    profiles.push_back(profile_scene(scene, light, sphere, images, true, noise, shown));
   return profiles;
 }
 
@@ -157,7 +159,10 @@ Result measured(const ProfileArguments& options, const NamedImages& images,
   }
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
-  const std::vector<records::Profile> profiles = profiles_of(scene, options, images, noise);
+  std::optional<PixelsShow> shown;
+  if (const auto means = options.filter.apply(scene.film))
+    shown = *means ? PixelsShow::kMeans : PixelsShow::kCentres;
+  const std::vector<records::Profile> profiles = profiles_of(scene, options, images, noise, shown);
   if (profiles.size() > 1 && !options.svg.empty())
     throw Error(ExitCode::kUsage,
                 fmt::format("--svg draws one highlight, and there are {}: choose with --sphere and "
@@ -222,6 +227,8 @@ void add_profile(CLI::App& app, ExitCode&) {
                    "On which sphere: its number in the scene; default: every one")
       ->check(CLI::NonNegativeNumber);
   options->overrides.add_to(*command);
+  OptionGroup pixels(*command, "With a scene");
+  options->filter.add_to(pixels);
   const auto all = command->get_options();
   for (std::size_t i = before; i < all.size(); ++i) all[i]->needs(scene);
   OptionGroup where(*command, "Without a scene");
@@ -251,10 +258,10 @@ void add_profile(CLI::App& app, ExitCode&) {
       "likewise");
   options->limits.add_to(output);
   command->footer(
-      "With a scene 'analytic' is its formula at each pixel's centre. The epicentre reaches to where\n"
-      "the lobe has fallen to 1/2, the flank to 1/20, the blooming zone to 1/1000. Every family of\n"
-      "lobes is fitted, and the first lines say which explains the highlight best. Roughness is the\n"
-      "root of alpha.\n"
+      "With a scene 'analytic' is its formula: the mean over each pixel with the film's filter, or its\n"
+      "value at the pixel's centre, whichever the pictures show. The epicentre reaches to where the lobe\n"
+      "has fallen to 1/2, the flank to 1/20, the blooming zone to 1/1000. Every family of lobes is\n"
+      "fitted, and the first lines say which explains the highlight best. Roughness is the root of alpha.\n"
       "\n"
       "Without a scene every highlight is measured, down to a tenth of the brightest. Peak and widths\n"
       "are over the background, which is printed too. A single bright pixel is named and left out.\n"

@@ -116,6 +116,11 @@ std::string explanations_text(const std::string& name, const records::HighlightF
     text += *best.rms_of_noise < 1.1 ? ", which is its noise"
                                      : fmt::format(", {:.3g} times its noise", *best.rms_of_noise);
   text += '\n' + others;
+  if (h.pixels_show == "means")
+    text += "  its pixels are means over their area, as it was fitted\n";
+  if (h.pixels_show == "unknown")
+    text +=
+        "  whether its pixels are means over their area cannot be told: errors allow for both\n";
   if (h.clipped)
     text += fmt::format(
         "{}: clipped: {} of its pixels have the picture's largest {}. They are not fitted, but its "

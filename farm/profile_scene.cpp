@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "compare/profile/clipping.hpp"
+#include "compare/profile/stored_steps.hpp"
 #include "core/error.hpp"
+#include "farm/pixel_means.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
-#include "renderer/reflector.hpp"
 #include "renderer/render_record.hpp"
 
 namespace lobelia {
@@ -24,20 +24,44 @@ void require_index(const char* what, int index, std::size_t count) {
                                          what, index, count - 1));
 }
 
-/// The diffuse base under one light, as the mean of R, G and B; 0 in shadow.
-std::vector<double> diffuse_radiance(const Scene& scene, int light, int sphere) {
-  const Rgb albedo = scene.materials.at(std::size_t(scene.spheres.at(std::size_t(sphere)).material))
-                         .diffuse_reflectance;
-  std::vector<double> radiance(std::size_t(scene.film.width) * scene.film.height, 0.0);
-  if (is_black(albedo)) return radiance;
-  for_each_pixel_of(scene, sphere, [&](std::size_t i, const Hit& hit, Vec3) {
-    if (const auto here = light_at(scene, light, hit)) {
-      const Rgb reflected = here->irradiance * albedo;
-      radiance[i] = dot(hit.normal, here->to_light) * std::numbers::inv_pi *
-                    (reflected.r + reflected.g + reflected.b) / 3;
+/// What a scene's formula shows of one sphere under one light and in all.
+struct FormulaPictures {
+  Image analytic;               ///< under the one light
+  Image with_all;               ///< none if it is the only one
+  std::vector<double> diffuse;  ///< of the one light, the mean of R, G and B
+
+  FormulaPictures(const Scene& scene, const PixelMeans& means, int light)
+      : analytic(scene.film.width, scene.film.height), diffuse(analytic.pixel_count()) {
+    if (scene.lights.size() > 1) with_all = Image(scene.film.width, scene.film.height);
+    for (std::size_t i = 0; i < diffuse.size(); ++i) {
+      set(analytic, i, means.radiance(i, light));
+      if (with_all.pixel_count() > 0) set(with_all, i, means.radiance(i, std::nullopt));
+      diffuse[i] = means.diffuse(i, light);
     }
-  });
-  return radiance;
+  }
+  double others(std::size_t pixel) const {
+    return with_all.pixel_count() > 0 ? radiance_at(with_all, pixel) - radiance_at(analytic, pixel)
+                                      : 0;
+  }
+  static void set(Image& image, std::size_t pixel, Rgb radiance) {
+    float* to = image.values().data() + 3 * pixel;
+    to[0] = float(radiance.r), to[1] = float(radiance.g), to[2] = float(radiance.b);
+  }
+};
+
+/// Where the formula's highlight is brightest; NaN if it is nowhere.
+FilmPoint middle_of(const FormulaPictures& formula, const HighlightMap& map) {
+  Field field{map.width, map.height, map.angle};
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    if (!std::isnan(field.values[i]))
+      field.values[i] = radiance_at(formula.analytic, i) - formula.diffuse[i];
+  return locate_peak(field).place;
+}
+
+/// Only pixels that show nothing but the lit sphere have a mean of its highlight.
+void leave_whole_pixels(HighlightMap& map, const PixelMeans& means, int light) {
+  for (std::size_t i = 0; i < map.angle.size(); ++i)
+    if (!std::isnan(map.angle[i]) && !means.is_whole(i, light)) map.angle[i] = kNaN;
 }
 
 /// The direction on the film of the plane of incidence, towards the light. The plane contains the eye, the sphere's centre
@@ -60,19 +84,22 @@ struct CleanPicture {
   Image image;
   std::vector<Speck> specks;
   ClippedChannels clipped;
+  StoredSteps steps;
 
   /// Only a highlight that the scene resolves may have specks: a smaller one is one.
   CleanPicture(const Image& picture, const std::vector<std::size_t>& lit, bool resolved)
-      : image(picture) {
+      : image(picture), steps(picture) {
     Field field = radiance_field(image);
     if (resolved) specks = take_specks(field);
     for (const Speck& speck : specks)
       for (const std::size_t i : speck.pixels)
         std::ranges::fill(image.values().subspan(3 * i, 3), float(field.values[i]));
-    clipped = find_clipping(image, largest_values(image, {}), lit);
+    clipped = find_clipping(image, largest_values(image, {}), steps, lit);
   }
   PictureFacts facts(const PictureNoise* noise) const {
     PictureFacts facts{.noise = noise, .thorough = true};
+    for (std::size_t i = 0; i < image.pixel_count(); ++i)
+      facts.rounding.push_back(steps.rounding(image, i));
     if (!clipped.names().empty())
       for (std::size_t i = 0; i < image.pixel_count(); ++i)
         facts.clipped.push_back(clipped.holds(image, i));
@@ -97,22 +124,20 @@ void add_left_out(records::HighlightFigures& figures, const CleanPicture& pictur
 }  // namespace
 
 Image analytic_image(const Scene& scene, int sphere) {
-  const Reflector reflector(
-      scene.materials.at(std::size_t(scene.spheres.at(std::size_t(sphere)).material)));
+  const PixelMeans centres(scene, sphere, false);
   Image image(scene.film.width, scene.film.height);
-  for_each_pixel_of(scene, sphere, [&](std::size_t i, const Hit& hit, Vec3 to_eye) {
-    Rgb radiance;
-    for (int light = 0; light < int(scene.lights.size()); ++light)
-      if (const auto here = light_at(scene, light, hit))
-        radiance = radiance + here->irradiance * reflector.eval(hit.normal, to_eye, here->to_light);
-    float* pixel = image.values().data() + 3 * i;
-    pixel[0] = float(radiance.r), pixel[1] = float(radiance.g), pixel[2] = float(radiance.b);
-  });
+  for (std::size_t i = 0; i < image.pixel_count(); ++i)
+    FormulaPictures::set(image, i, centres.radiance(i, std::nullopt));
   return image;
 }
 
 records::Profile profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images,
-                               bool thorough, const std::vector<const PictureNoise*>& noise) {
+                               bool thorough, const std::vector<const PictureNoise*>& noise,
+                               std::optional<PixelsShow> shown) {
+  PixelsShow show =
+      shown.value_or(scene.sampler.sample_count > 1 ? PixelsShow::kMeans : PixelsShow::kUnknown);
+  // Only a fit of lobes can tell.
+  if (!thorough && show == PixelsShow::kUnknown) show = PixelsShow::kCentres;
   require_index("light", light, scene.lights.size());
   require_index("sphere", sphere, scene.spheres.size());
   if (!is_delta(scene.lights[std::size_t(light)]))
@@ -131,8 +156,11 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
       scene.materials.at(std::size_t(scene.spheres[std::size_t(sphere)].material));
   const Highlight& highlight = material.highlight;
   const PreparedLobe lobe = prepare(highlight.lobe, highlight.exponent);
-  const HighlightMap map = highlight_map(scene, light, sphere);
-  const std::vector<double> diffuse = diffuse_radiance(scene, light, sphere);
+  const PixelMeans centres(scene, sphere, show == PixelsShow::kMeans);
+  const PixelMeans means(scene, sphere, true);
+  HighlightMap map = highlight_map(scene, light, sphere);
+  if (show == PixelsShow::kMeans) leave_whole_pixels(map, means, light);
+  const FormulaPictures formula(scene, centres, light);
   ProfileGeometry geometry;
   geometry.angle = map.angle;
   geometry.solid_angle = map.solid_angle;
@@ -141,9 +169,23 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
   if (has_highlight(material)) {
     geometry.width = map.width;
     geometry.scale = map.scale;
-    geometry.base = diffuse;
+    geometry.base = formula.diffuse;
     geometry.incidence = plane_of_incidence(scene, light, sphere);
     geometry.lobes = {map.reflection, map.half_vector, map.n_dot_l, map.n_dot_v, map.irradiance};
+    geometry.middle = middle_of(formula, map);
+    geometry.pixels = show;
+    geometry.nodes_per_pixel = means.nodes_per_pixel();
+    geometry.mean = [&, show](std::size_t pixel) {
+      PixelMean mean = means.highlight(pixel, light);
+      // If means are known to be shown, what was taken away was a mean too.
+      if (show == PixelsShow::kUnknown && !mean.nodes.empty()) {
+        const Rgb all = means.radiance(pixel, std::nullopt), one = means.radiance(pixel, light);
+        const double others = (all.r - one.r + all.g - one.g + all.b - one.b) / 3;
+        mean.more_beneath =
+            others + means.diffuse(pixel, light) - formula.others(pixel) - formula.diffuse[pixel];
+      }
+      return mean;
+    };
   }
 
   std::vector<PictureFacts> facts(images.size() + 1);
@@ -162,20 +204,16 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
   }
 
   // Subtracts the formula's value for the other lights from every picture: the curve is for one highlight.
-  Scene one_light = scene;
-  one_light.lights = {scene.lights[std::size_t(light)]};
-  const Image analytic = analytic_image(one_light, sphere);
-  const Image with_all = scene.lights.size() > 1 ? analytic_image(scene, sphere) : Image();
   std::vector<Image> single;
-  NamedImages all{{records::kAnalytic, &analytic}};
+  NamedImages all{{records::kAnalytic, &formula.analytic}};
   single.reserve(images.size());
   for (std::size_t k = 0; k < images.size(); ++k) {
     const Image* image = clean.empty() ? images[k].second : &clean[k].image;
     if (scene.lights.size() > 1) {
       const std::span<float> values = single.emplace_back(*image).values();
       for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] =
-            float(double(values[i]) - (double(with_all.values()[i]) - analytic.values()[i]));
+        values[i] = float(double(values[i]) - (double(formula.with_all.values()[i]) -
+                                               double(formula.analytic.values()[i])));
       image = &single.back();
     }
     all.emplace_back(images[k].first, image);
@@ -185,6 +223,11 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
   for (std::size_t k = 1; k < all.size(); ++k) pairs.emplace_back(k, 0);
 
   const Profile profile = measure_profile(geometry, all, pairs, facts);
+  // Then the formula is to be a mean too.
+  if (show == PixelsShow::kUnknown && !images.empty() && !profile.figures.empty() &&
+      std::all_of(profile.figures.begin() + 1, profile.figures.end(),
+                  [](const HighlightFigures& one) { return one.pixels == PixelsShow::kMeans; }))
+    return profile_scene(scene, light, sphere, images, thorough, noise, PixelsShow::kMeans);
   const bool reflection = info(highlight.model).angle == LobeAngle::kReflection;
   records::Profile record =
       profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
@@ -194,11 +237,10 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
     double peak = 0, of_diffuse = 0, of_others = 0;
     for (std::size_t i = 0; i < map.angle.size(); ++i) {
       if (!(map.angle[i] < geometry.ends.back())) continue;
-      const double alone = radiance_at(analytic, i);
-      peak = std::max(peak, alone - diffuse[i]);
-      of_diffuse = std::max(of_diffuse, diffuse[i]);
-      if (scene.lights.size() > 1)
-        of_others = std::max(of_others, radiance_at(with_all, i) - alone);
+      const double alone = radiance_at(formula.analytic, i);
+      peak = std::max(peak, alone - formula.diffuse[i]);
+      of_diffuse = std::max(of_diffuse, formula.diffuse[i]);
+      of_others = std::max(of_others, formula.others(i));
     }
     record.subtracted = records::Subtracted{of_diffuse / peak, of_others / peak};
     for (std::size_t k = 0; k < clean.size(); ++k)

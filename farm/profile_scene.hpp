@@ -19,9 +19,14 @@ Image analytic_image(const Scene& scene, int sphere);
 ///
 /// If `thorough`, figures have standard errors, and every family of lobes is fitted. `noise` is that of each picture; null or
 /// missing if unknown.
+///
+/// `shown` says what the pixels of the pictures show. By default means with the film's filter if the scene has several samples
+/// per pixel. With one sample it is unknown, since the pictures may be from other settings: a thorough profile finds out, and
+/// another one takes them for centres. For means, the formula is a mean too.
 records::Profile profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images,
                                bool thorough = false,
-                               const std::vector<const PictureNoise*>& noise = {});
+                               const std::vector<const PictureNoise*>& noise = {},
+                               std::optional<PixelsShow> shown = {});
 
 /// (sphere, light) for every sphere with a highlight and every light, visible or not. Throws as profile_scene().
 std::vector<std::pair<int, int>> highlights_of(const Scene& scene);

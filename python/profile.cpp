@@ -105,15 +105,23 @@ std::string profiles(const py::list& given, const py::object& scene_text, std::o
                      std::optional<int> sphere, const py::dict& given_options) {
   Pictures pictures(given);
   cli::SceneOverrides overrides;
-  parse_options(given_options, [&](CLI::App& app) { overrides.add_to(app); });
+  cli::FilterOption filter;
+  parse_options(given_options, [&](CLI::App& app) {
+    overrides.add_to(app);
+    cli::OptionGroup group(app);
+    filter.add_to(group);
+  });
   Scene scene = scene_of(scene_text);
   overrides.apply(scene);
+  std::optional<PixelsShow> shown;
+  if (const auto means = filter.apply(scene.film))
+    shown = *means ? PixelsShow::kMeans : PixelsShow::kCentres;
   std::string text;
   run(py::none(), [&](const ShowProgress& show) {
     const NamedImages images = pictures.read();
     if (light || sphere) {
       text = records::record_text(profile_scene(scene, light.value_or(0), sphere.value_or(0),
-                                                images, true, pictures.noise()));
+                                                images, true, pictures.noise(), shown));
       return;
     }
     const auto highlights = highlights_of(scene);
@@ -121,7 +129,7 @@ std::string profiles(const py::list& given, const py::object& scene_text, std::o
       throw Error(ExitCode::kInput, "scene: no sphere of it has a highlight, or there is no light");
     records::Profiles all;
     for (const auto& [on, of] : highlights) {
-      all.profiles.push_back(profile_scene(scene, of, on, images, true, pictures.noise()));
+      all.profiles.push_back(profile_scene(scene, of, on, images, true, pictures.noise(), shown));
       show(double(all.profiles.size()) / double(highlights.size()));
     }
     text = records::record_text(all);

@@ -78,6 +78,12 @@ void define_profile_tables(Tables& tables) {
         t.key("energy").unit("W/m^2").may_be_nonfinite();
         t.key("because", "why something could not be told").if_any();
         t.key("explanations", "the best first").if_any();
+        t.key(
+             "pixelsShow",
+             "the lobe at their centres, or its means with the film's filter; if unknown, the errors "
+             "of the explanations hold for both")
+            .one_of(kPixelsShow)
+            .if_any();
         t.key("clipped", "then only the explanations and the cosine lobe leave these pixels out");
         t.key("specks", "left out, the brightest first").if_any();
       });

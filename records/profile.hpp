@@ -13,6 +13,8 @@ inline constexpr char kAnalytic[] = "analytic";
 inline constexpr std::string_view kPeakFound[] = {"fitted", "pixel", "plateau", "edge", "none"};
 /// What a highlight may be.
 inline constexpr std::string_view kLobeFamilies[] = {"phong", "blinn_phong", "ggx", "beckmann"};
+/// What the fit of a lobe takes the pixels for.
+inline constexpr std::string_view kPixelsShow[] = {"centres", "means", "unknown"};
 inline constexpr std::string_view kFalloffs[] = {"gaussian", "ggx"};
 /// Where standard errors come from.
 inline constexpr std::string_view kNoiseSources[] = {"given", "scatter"};
@@ -73,6 +75,7 @@ struct HighlightFigures {
   CosineLobe cosine_lobe;
   std::string because;
   std::vector<LobeExplanation> explanations;
+  std::string pixels_show;
   std::optional<HighlightErrors> standard_errors;
   std::optional<ClippedPixels> clipped;
   std::vector<Speck> specks;

@@ -48,7 +48,8 @@ Measured measure_picture(const Image& image, const BlobOptions& options,
                           options.region.value_or(PixelWindow{0, 0, image.width(), image.height()}),
                           errors ? &*errors : nullptr,
                           noise && noise->shared,
-                          largest_values(image, measured.found.specks)};
+                          largest_values(image, measured.found.specks),
+                          StoredSteps(image)};
   for (std::size_t k = 0; k < measured.found.blobs.size(); ++k) {
     measured.blobs.push_back(measure_blob(source, measured.found.blobs[k], k));
     measured.blobs.back().not_finite = measured.not_finite;

@@ -38,20 +38,24 @@ std::string either_of(const std::string& channels) {
 }
 
 ClippedChannels find_clipping(const Image& image, const std::array<float, 3>& largest,
-                              std::span<const std::size_t> pixels) {
+                              const StoredSteps& steps, std::span<const std::size_t> pixels) {
   // As locate_peak() has it for a plateau.
   constexpr std::size_t kFewest = 5;
   constexpr double kOfCap = 0.1, kCap = 0.8;
+  // The top of a smooth peak has an area in proportion to its height, so no step has twice the pixels of the next one.
+  constexpr std::size_t kOfNext = 2;
   ClippedChannels clipping{largest, {}};
   for (std::size_t c = 0; c < 3; ++c) {
-    std::size_t equal = 0, cap = 0;
+    std::size_t equal = 0, cap = 0, next = 0;
+    const double below = double(largest[c]) - 1.5 * steps.at(double(largest[c]));
     for (const std::size_t i : pixels) {
       const float value = image.values()[3 * i + c];
       equal += value == largest[c];
+      next += value < largest[c] && double(value) > below;
       cap += double(value) >= kCap * double(largest[c]);
     }
-    clipping.is_clipped[c] =
-        largest[c] > 0 && equal >= kFewest && double(equal) >= kOfCap * double(cap);
+    clipping.is_clipped[c] = largest[c] > 0 && equal >= kFewest && equal > kOfNext * next &&
+                             double(equal) >= kOfCap * double(cap);
   }
   return clipping;
 }

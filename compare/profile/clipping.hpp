@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compare/profile/find_blobs.hpp"
+#include "compare/profile/stored_steps.hpp"
 
 namespace lobelia {
 
@@ -22,8 +23,9 @@ struct ClippedChannels {
 /// "R or G" of "RG".
 std::string either_of(const std::string& channels);
 
-/// A channel is clipped if so many of these pixels have the picture's largest value that it is no peak.
+/// A channel is clipped if so many of these pixels have the picture's largest value that it is no peak, whose rounding leaves
+/// as many in each step.
 ClippedChannels find_clipping(const Image& image, const std::array<float, 3>& largest,
-                              std::span<const std::size_t> pixels);
+                              const StoredSteps& steps, std::span<const std::size_t> pixels);
 
 }  // namespace lobelia

@@ -116,7 +116,7 @@ std::array<double, 2> half_widths(const Unknowns& p) {
 
 FalloffFit no_curve(Falloff family, std::size_t pixels, std::string why) {
   const Estimate none{kNaN, kNaN};
-  return {family, none, none, none, {kNaN, kNaN}, kNaN, pixels, std::move(why)};
+  return {family, none, none, none, {kNaN, kNaN}, {}, kNaN, pixels, std::move(why)};
 }
 
 FalloffFit fit_one(Falloff family, const std::vector<FittedPixel>& pixels, const Axes& rough,
@@ -182,12 +182,19 @@ FalloffFit fit_one(Falloff family, const std::vector<FittedPixel>& pixels, const
   fit.major_half_width = {widths[0], error_of(by_widths[0])};
   fit.minor_half_width = {widths[1], error_of(by_widths[1])};
   fit.place = {p[1], p[2]};
+  fit.shape = {p[3], p[4], p[5]};
   fit.residual = std::sqrt(squares / double(pixels.size())) / p[0];
   fit.pixels = pixels.size();
   return fit;
 }
 
 }  // namespace
+
+double value_at(const FalloffFit& fit, FilmPoint place) {
+  const double dx = place.x - fit.place.x, dy = place.y - fit.place.y;
+  const double s = fit.shape[0] * dx + fit.shape[1] * dy, t = fit.shape[2] * dy;
+  return fit.peak.value * falloff(fit.family, s * s + t * t).first;
+}
 
 std::vector<FalloffFit> fit_falloff(const Field& above, const Axes& rough, double reach,
                                     const std::vector<bool>& clipped,

@@ -7,6 +7,7 @@
 // Error:        the covariance through the pixels' standard errors; what the family misses adds to it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -27,10 +28,15 @@ struct FalloffFit {
   Falloff family{};
   Estimate peak, major_half_width, minor_half_width;  ///< over the background; pixels
   FilmPoint place;
+  /// In half-widths from the place, s = shape[0] dx + shape[1] dy and t = shape[2] dy.
+  std::array<double, 3> shape{};
   double residual = 0;  ///< root mean square over the peak
   std::size_t pixels = 0;
   std::string why_not;  ///< a sentence if there is no fit; then the figures are NaN
 };
+
+/// The fitted curve at a place, over its level.
+double value_at(const FalloffFit& fit, FilmPoint place);
 
 /// Both families, the better one first. `rough` says where to look; pixels within `reach` of its semi-axes are fitted.
 /// `clipped` and `error` have an entry for each pixel.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,6 +12,25 @@ namespace {
 std::array<double, 4> cubic_weights(double t) {
   return {((-0.5 * t + 1) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1,
           ((-1.5 * t + 2) * t + 0.5) * t, (0.5 * t - 0.5) * t * t};
+}
+
+/// See sample() and sample_of_highlight().
+double interpolated(const Field& field, FilmPoint place, bool of_logarithms) {
+  const double x = place.x - 0.5, y = place.y - 0.5;
+  if (!(x > -1 && y > -1 && x < field.width && y < field.height)) return kNaN;
+  const int i = int(std::floor(x)), j = int(std::floor(y));
+  const auto wx = cubic_weights(x - i), wy = cubic_weights(y - j);
+  double sum = 0;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const double weight = wx[std::size_t(column)] * wy[std::size_t(row)];
+      // On a line through pixel centres, pixels beside it have no weight and may be holes.
+      if (weight == 0) continue;
+      const double value = field.at(i - 1 + column, j - 1 + row);
+      if (of_logarithms && !(value > 0)) return interpolated(field, place, false);
+      sum += weight * (of_logarithms ? std::log(value) : value);
+    }
+  return of_logarithms ? std::exp(sum) : sum;
 }
 
 }  // namespace
@@ -34,19 +54,10 @@ FilmPoint pixel_centre(const Field& field, std::size_t index) {
   return {double(index % width) + 0.5, double(index / width) + 0.5};
 }
 
-double sample(const Field& field, FilmPoint place) {
-  const double x = place.x - 0.5, y = place.y - 0.5;
-  if (!(x > -1 && y > -1 && x < field.width && y < field.height)) return kNaN;
-  const int i = int(std::floor(x)), j = int(std::floor(y));
-  const auto wx = cubic_weights(x - i), wy = cubic_weights(y - j);
-  double sum = 0;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) {
-      const double weight = wx[std::size_t(column)] * wy[std::size_t(row)];
-      // On a line through pixel centres, pixels beside it have no weight and may be holes.
-      if (weight != 0) sum += weight * field.at(i - 1 + column, j - 1 + row);
-    }
-  return sum;
+double sample(const Field& field, FilmPoint place) { return interpolated(field, place, false); }
+
+double sample_of_highlight(const Field& field, FilmPoint place) {
+  return interpolated(field, place, true);
 }
 
 std::vector<std::size_t> region_above(const Field& field, std::size_t start, double level) {
@@ -67,38 +78,44 @@ std::vector<std::size_t> region_above(const Field& field, std::size_t start, dou
   return region;
 }
 
+Axes axes_of_moments(FilmPoint centre, double xx, double xy, double yy) {
+  const double half_turn = std::atan2(2 * xy, xx - yy) / 2;
+  const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+  return {centre,
+          {std::cos(half_turn), std::sin(half_turn)},
+          std::sqrt(mean + spread),
+          std::sqrt(std::max(0.0, mean - spread))};
+}
+
 Axes principal_axes(const Field& field, const std::vector<std::size_t>& pixels, double base) {
   double sum = 0;
-  Axes axes;
+  FilmPoint centre;
   for (const std::size_t i : pixels) {
     const double weight = field.values[i] - base;
     sum += weight;
     const FilmPoint place = pixel_centre(field, i);
-    axes.centre.x += weight * place.x;
-    axes.centre.y += weight * place.y;
+    centre.x += weight * place.x;
+    centre.y += weight * place.y;
   }
-  axes.centre.x /= sum;
-  axes.centre.y /= sum;
-  double xx = 0, xy = 0, yy = 0;
+  centre.x /= sum;
+  centre.y /= sum;
+  constexpr double kOfPixel = 1.0 / 12;
+  double xx = kOfPixel, xy = 0, yy = kOfPixel;
   for (const std::size_t i : pixels) {
     const double weight = (field.values[i] - base) / sum;
     const FilmPoint place = pixel_centre(field, i);
-    const double dx = place.x - axes.centre.x, dy = place.y - axes.centre.y;
+    const double dx = place.x - centre.x, dy = place.y - centre.y;
     xx += weight * dx * dx;
     xy += weight * dx * dy;
     yy += weight * dy * dy;
   }
-  const double half_turn = std::atan2(2 * xy, xx - yy) / 2;
-  axes.major = {std::cos(half_turn), std::sin(half_turn)};
-  const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
-  axes.major_sigma = std::sqrt(mean + spread + 1.0 / 12);
-  axes.minor_sigma = std::sqrt(std::max(0.0, mean - spread) + 1.0 / 12);
-  return axes;
+  return axes_of_moments(centre, xx, xy, yy);
 }
 
 double distance_to_level(const Field& field, FilmPoint peak, FilmPoint direction, double level) {
   const auto at = [&](double distance) {
-    return sample(field, {peak.x + distance * direction.x, peak.y + distance * direction.y});
+    return sample_of_highlight(field,
+                               {peak.x + distance * direction.x, peak.y + distance * direction.y});
   };
   constexpr double kStep = 0.25;
   // Every value outside the film is NaN, which ends the walk.

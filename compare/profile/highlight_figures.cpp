@@ -88,11 +88,14 @@ Field part_around(const Field& field, FilmPoint place, double reach, FilmPoint& 
 
 /// Peak, place and half-widths by noise that is added; energy and centroid are sums, of which the errors are known.
 HighlightErrors errors_of(const ProfileGeometry& geometry, const Lit& lit, const Outline& outline,
-                          FilmPoint centroid, FilmPoint along, const PictureNoise* noise) {
+                          FilmPoint centroid, FilmPoint along, const PictureFacts& facts) {
+  const PictureNoise* const noise = facts.noise;
   HighlightErrors errors;
   errors.noise_is_given = noise != nullptr;
   std::vector<double> error = lit.error;
   if (!noise) error.assign(lit.highlight.values.size(), lit.noise * outline.peak.value);
+  for (std::size_t i = 0; i < facts.rounding.size(); ++i)
+    error[i] = std::hypot(error[i], facts.rounding[i]);
 
   double energy = 0, energy_together = 0, power = 0;
   FilmPoint moment, together;
@@ -152,36 +155,118 @@ double clipped_to(const ProfileGeometry& geometry, const Lit& lit,
   return angle;
 }
 
+/// Every how many lines and columns are enough for a fit of so many pixels. Means take longer, one for each of their places.
+std::size_t step_for(double pixels, const ProfileGeometry& geometry) {
+  constexpr double kMostPixels = 250'000, kMostNodes = 600'000;
+  const double most = geometry.pixels == PixelsShow::kCentres
+                          ? kMostPixels
+                          : kMostNodes / double(geometry.nodes_per_pixel);
+  return std::max<std::size_t>(1, std::size_t(std::ceil(std::sqrt(pixels / most))));
+}
+
+/// Pixels of a highlight, with the places of those that are means.
+struct SeenPixels {
+  std::vector<SeenLobe> pixels;
+  std::vector<PixelMean> means;
+};
+
 /// The pixels within three half-widths, so that those count that the picture shows and not those of the scene's lobe.
-std::vector<SeenLobe> seen_lobes(const ProfileGeometry& geometry, const Lit& lit,
-                                 const HighlightFigures& figures, const PictureFacts& facts) {
+SeenPixels seen_lobes(const ProfileGeometry& geometry, const Lit& lit,
+                      const HighlightFigures& figures, const PictureFacts& facts) {
   constexpr double kReach = 3;
   const double half_width = (figures.along.angle + figures.across.angle) / 2;
   const double end = half_width > 0 ? kReach * half_width : geometry.ends.back();
   const double cap = clipped_to(geometry, lit, facts.clipped);
-  // A very large highlight has pixels enough in every second or third line and column.
-  constexpr double kMostPixels = 250'000;
   const auto within = std::ranges::count_if(geometry.angle, [&](double x) { return x < end; });
-  const auto step = std::max<std::size_t>(1, std::size_t(std::sqrt(double(within) / kMostPixels)));
+  const std::size_t step = step_for(double(within), geometry);
   const auto width = std::size_t(geometry.width);
-  std::vector<SeenLobe> seen;
+  SeenPixels seen;
   for (std::size_t i = 0; i < geometry.angle.size(); ++i) {
     const std::size_t x = i % width / step, y = i / width / step;
     if (!(geometry.angle[i] < end) || i % width != x * step || i / width != y * step) continue;
     const bool is_clipped = !facts.clipped.empty() && facts.clipped[i];
-    seen.push_back({geometry.lobes->reflection[i], geometry.lobes->half_vector[i],
-                    geometry.lobes->n_dot_l[i], geometry.lobes->n_dot_v[i],
-                    geometry.lobes->irradiance[i], lit.highlight.values[i],
-                    facts.noise ? lit.error[i] : kNaN, int(x), int(y),
-                    !is_clipped && geometry.angle[i] > cap});
+    seen.pixels.push_back({geometry.lobes->reflection[i],
+                           geometry.lobes->half_vector[i],
+                           geometry.lobes->n_dot_l[i],
+                           geometry.lobes->n_dot_v[i],
+                           geometry.lobes->irradiance[i],
+                           lit.highlight.values[i],
+                           facts.noise ? lit.error[i] : kNaN,
+                           int(x),
+                           int(y),
+                           !is_clipped && geometry.angle[i] > cap,
+                           {},
+                           0});
+    if (geometry.pixels != PixelsShow::kCentres) seen.means.push_back(geometry.mean(i));
+  }
+  for (std::size_t k = 0; k < seen.means.size(); ++k) {
+    seen.pixels[k].nodes = seen.means[k].nodes;
+    seen.pixels[k].more_beneath = seen.means[k].more_beneath;
   }
   return seen;
+}
+
+/// The scene's lobe down to the end of its blooming zone.
+LobeFit fit_cosine(const ProfileGeometry& geometry, const Field& highlight,
+                   const PictureFacts& facts, bool means) {
+  const auto within =
+      std::ranges::count_if(geometry.angle, [&](double x) { return x < geometry.ends.back(); });
+  const std::size_t step = means ? step_for(double(within), geometry) : 1;
+  const auto width = std::size_t(geometry.width);
+  std::vector<LobeSample> samples;
+  std::vector<PixelMean> places;
+  for (std::size_t i = 0; i < geometry.angle.size(); ++i) {
+    if (!(geometry.angle[i] < geometry.ends.back()) || i % width % step != 0 ||
+        i / width % step != 0)
+      continue;
+    LobeSample& sample =
+        samples.emplace_back(LobeSample{geometry.angle[i], geometry.scale[i], highlight.values[i],
+                                        facts.clipped.empty() || !facts.clipped[i]});
+    if (!means) continue;
+    const PixelMean& place = places.emplace_back(geometry.mean(i));
+    sample.is_known = sample.is_known && !place.nodes.empty();
+    sample.radiance -= place.more_beneath;
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) samples[k].nodes = places[k].of_lobe;
+  return fit_cosine_lobe(samples);
+}
+
+/// A sentence if the highlight is not where the scene has it. A lobe about the scene's middle fits its tail, or what is
+/// between both places, but not this highlight.
+std::string why_elsewhere(const ProfileGeometry& geometry, const HighlightFigures& figures,
+                          const Field& squared_angle, double noise) {
+  if (figures.explanations.empty() || !figures.explanations.front().fit.why_not.empty()) return "";
+  const double pixels = (figures.along.pixels + figures.across.pixels) / 2;
+  const double angle = (figures.along.angle + figures.across.angle) / 2;
+  const double away = distance(figures.peak.place, geometry.middle);
+  // The cosine of the light moves a peak by less, and then a family fits.
+  constexpr double kAway = 0.25, kMisfit = 0.03, kOfNoise = 1.2;
+  const double misfit = figures.explanations.front().fit.residual;
+  if (!(away > kAway * pixels) || !(misfit > std::max(kMisfit, kOfNoise * noise))) return "";
+  // Of the lobe's own angle there, unless the scene's peak is not at the angle 0.
+  const double at_middle = std::sqrt(std::max(0.0, sample(squared_angle, geometry.middle)));
+  const double there = std::sqrt(std::max(0.0, sample(squared_angle, figures.peak.place)));
+  const double off = there > 10 * at_middle ? there : away * angle / pixels;
+  return fmt::format(
+      "the highlight is not where the scene has it: its peak is {:.2g} degrees off, at ({:.1f}, "
+      "{:.1f}) and not at ({:.1f}, {:.1f})",
+      off * 180 / kPi, figures.peak.place.x, figures.peak.place.y, geometry.middle.x,
+      geometry.middle.y);
 }
 
 HighlightFigures nothing(std::string why) {
   const HalfWidth none{kNaN, kNaN};
   const LobeFit no_fit{kNaN, kNaN, kNaN, kNaN, 0, why};
-  return {{{kNaN, kNaN}, kNaN}, {kNaN, kNaN}, kNaN, none, none, no_fit, std::move(why), {}, {}};
+  return {{{kNaN, kNaN}, kNaN},
+          {kNaN, kNaN},
+          kNaN,
+          none,
+          none,
+          no_fit,
+          std::move(why),
+          {},
+          PixelsShow::kCentres,
+          {}};
 }
 
 }  // namespace
@@ -189,10 +274,9 @@ HighlightFigures nothing(std::string why) {
 HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image& image,
                                    const PictureFacts& facts) {
   Field highlight = empty_field(geometry);
-  std::vector<LobeSample> samples;
   HighlightFigures figures;
   double sum = 0;
-  std::size_t lit = 0, odd = 0;
+  std::size_t lit = 0, odd = 0, in_lobe = 0;
   for (std::size_t i = 0; i < geometry.angle.size(); ++i) {
     if (std::isnan(geometry.angle[i])) continue;
     ++lit;
@@ -202,8 +286,7 @@ HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image&
     const double power = radiance * geometry.solid_angle[i];
     figures.energy += power;
     if (!(geometry.angle[i] < geometry.ends.back())) continue;
-    samples.push_back({geometry.angle[i], geometry.scale[i], radiance,
-                       facts.clipped.empty() || !facts.clipped[i]});
+    ++in_lobe;
     sum += power;
     const FilmPoint place = pixel_centre(highlight, i);
     figures.centroid.x += power * place.x;
@@ -211,7 +294,7 @@ HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image&
   }
   if (lit == 0) return nothing("no pixel sees a part of the sphere that the light reaches");
   if (odd > 0) return nothing(fmt::format("{} of its pixels are not finite", odd));
-  if (samples.empty())
+  if (in_lobe == 0)
     return nothing(
         "no pixel's centre lies in the lobe: the highlight is hidden, outside of the picture or "
         "smaller than a pixel");
@@ -219,7 +302,7 @@ HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image&
   figures.centroid = sum > 0 ? FilmPoint{figures.centroid.x / sum, figures.centroid.y / sum}
                              : FilmPoint{kNaN, kNaN};
   figures.along = figures.across = {kNaN, kNaN};
-  figures.cosine = fit_cosine_lobe(samples);
+  figures.cosine = fit_cosine(geometry, highlight, facts, geometry.pixels == PixelsShow::kMeans);
   const Lit found = look_for(std::move(highlight), facts.noise);
   if (found.region.empty()) {
     figures.peak = {{kNaN, kNaN}, kNaN};
@@ -240,9 +323,20 @@ HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image&
   figures.along = half_width(outline, squared_angle, along, 0);
   figures.across = half_width(outline, squared_angle, along, 1);
   if (facts.thorough && geometry.lobes) {
-    figures.errors = errors_of(geometry, found, outline, figures.centroid, along, facts.noise);
-    figures.explanations = explain_highlight(seen_lobes(geometry, found, figures, facts),
-                                             facts.noise && facts.noise->shared);
+    figures.errors = errors_of(geometry, found, outline, figures.centroid, along, facts);
+    const SeenPixels seen = seen_lobes(geometry, found, figures, facts);
+    Explanation explanation =
+        explain_highlight(seen.pixels, facts.noise && facts.noise->shared, geometry.pixels);
+    figures.explanations = std::move(explanation.families);
+    figures.pixels = explanation.pixels;
+    if (std::string why = why_elsewhere(geometry, figures, squared_angle, found.noise);
+        !why.empty()) {
+      for (FamilyFit& one : figures.explanations)
+        one = {one.family, false, {kNaN, kNaN, kNaN, kNaN, one.fit.pixels, why}, kNaN, kNaN};
+      figures.cosine = {kNaN, kNaN, kNaN, kNaN, figures.cosine.pixels, std::move(why)};
+    } else if (geometry.pixels == PixelsShow::kUnknown && figures.pixels == PixelsShow::kMeans) {
+      figures.cosine = fit_cosine(geometry, found.highlight, facts, true);
+    }
   }
   return figures;
 }

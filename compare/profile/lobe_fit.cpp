@@ -18,12 +18,30 @@ namespace {
 constexpr double kRatio = 1.25;
 constexpr std::size_t kScanned = 4096;
 
-struct Term {
+/// A place of the highlight: what it shows is scale * coefficient * lobe.
+struct Place {
   double log_cosine;  ///< of the lobe's angle
-  double scale, radiance;
-  double weight = 1, error = kNaN;  ///< 0 for a clipped pixel
+  double scale;
   double n_dot_l = 1, n_dot_v = 1;
+};
+
+struct Term {
+  Place centre;
+  double radiance;
+  double weight = 1, error = kNaN;  ///< 0 for a clipped pixel
   int x = 0, y = 0;
+  std::size_t nodes = 0, count = 0;  ///< in LobeTerms::nodes; none: the pixel shows its centre
+};
+
+/// Pixels, and the places of those that are means.
+struct LobeTerms {
+  std::vector<Term> pixels;
+  std::vector<Place> nodes = {};  ///< the scale includes the share of the pixel
+
+  std::span<const Place> places_of(const Term& term) const {
+    if (term.count == 0) return {&term.centre, 1};
+    return std::span(nodes).subspan(term.nodes, term.count);
+  }
 };
 
 double log_cosine(double angle) {
@@ -38,8 +56,8 @@ struct Lobe {
 
 struct CosinePower {
   static constexpr double kSmallest = 1e-3, kLargest = 1e8;
-  Lobe operator()(const Term& term, double exponent) const {
-    const double power = exponent * term.log_cosine;
+  Lobe operator()(const Place& place, double exponent) const {
+    const double power = exponent * place.log_cosine;
     return {power, power};
   }
 };
@@ -51,11 +69,11 @@ struct Microfacets {
 };
 
 struct Ggx : Microfacets {
-  Lobe operator()(const Term& term, double alpha) const {
-    const double squared = alpha * alpha, cosine2 = std::exp(2 * term.log_cosine);
+  Lobe operator()(const Place& place, double alpha) const {
+    const double squared = alpha * alpha, cosine2 = std::exp(2 * place.log_cosine);
     const double spread = (1 - cosine2) / squared, sum = cosine2 + spread;
     Lobe lobe{-2 * std::log(sum), 4 * spread / sum};
-    for (const double cosine : {term.n_dot_l, term.n_dot_v}) {
+    for (const double cosine : {place.n_dot_l, place.n_dot_v}) {
       const double steep = squared * tangent_squared(cosine), root = std::sqrt(1 + steep);
       lobe.log_value += std::log(2 / (1 + root));
       lobe.slope -= steep / (root * (1 + root));
@@ -65,10 +83,10 @@ struct Ggx : Microfacets {
 };
 
 struct Beckmann : Microfacets {
-  Lobe operator()(const Term& term, double alpha) const {
-    const double steepness = std::expm1(-2 * term.log_cosine) / (alpha * alpha);
-    Lobe lobe{-steepness - 4 * term.log_cosine, 2 * steepness};
-    for (const double cosine : {term.n_dot_l, term.n_dot_v}) {
+  Lobe operator()(const Place& place, double alpha) const {
+    const double steepness = std::expm1(-2 * place.log_cosine) / (alpha * alpha);
+    Lobe lobe{-steepness - 4 * place.log_cosine, 2 * steepness};
+    for (const double cosine : {place.n_dot_l, place.n_dot_v}) {
       const double a = 1 / (alpha * std::sqrt(tangent_squared(cosine)));
       if (!(a < 1.6)) continue;
       const double above = (3.535 + 2.181 * a) * a, below = 1 + (2.276 + 2.577 * a) * a;
@@ -79,35 +97,56 @@ struct Beckmann : Microfacets {
   }
 };
 
+/// A pixel's value without the coefficient, and its derivative by the logarithm of the width.
+struct LobeValue {
+  double f = 0, by_width = 0;
+};
+template <class Family>
+LobeValue value_of(Family family, std::span<const Place> places, double width) {
+  LobeValue value;
+  for (const Place& place : places) {
+    const Lobe lobe = family(place, width);
+    const double f = place.scale * std::exp(lobe.log_value);
+    value.f += f;
+    if (f != 0) value.by_width += f * lobe.slope;
+  }
+  return value;
+}
+
 /// The best coefficient at a width.
 struct Best {
   double coefficient, squares;
   double score;  ///< half of minus the derivative of the squares by the width's logarithm
 };
 
+/// Every `stride`th pixel alone counts, for a look from afar by its centre alone.
 template <class Family>
-Best best_at(Family family, const std::vector<Term>& terms, double width, std::size_t stride = 1) {
+Best best_at(Family family, const LobeTerms& terms, double width, std::size_t stride = 0) {
+  const std::vector<Term>& pixels = terms.pixels;
   double ff = 0, fy = 0;
-  for (std::size_t i = 0; i < terms.size(); i += stride) {
-    const double f = terms[i].scale * std::exp(family(terms[i], width).log_value);
-    ff += terms[i].weight * f * f;
-    fy += terms[i].weight * f * terms[i].radiance;
+  std::vector<LobeValue> values;
+  const std::size_t step = std::max<std::size_t>(1, stride);
+  for (std::size_t i = 0; i < pixels.size(); i += step) {
+    const Term& term = pixels[i];
+    const LobeValue& value = values.emplace_back(
+        value_of(family, stride > 0 ? std::span(&term.centre, 1) : terms.places_of(term), width));
+    ff += term.weight * value.f * value.f;
+    fy += term.weight * value.f * term.radiance;
   }
   Best best{ff > 0 ? fy / ff : 0, 0, 0};
-  for (std::size_t i = 0; i < terms.size(); i += stride) {
-    const Lobe lobe = family(terms[i], width);
-    const double f = terms[i].scale * std::exp(lobe.log_value);
-    const double residual = terms[i].radiance - best.coefficient * f;
-    best.squares += terms[i].weight * residual * residual;
-    if (f > 0) best.score += terms[i].weight * residual * best.coefficient * f * lobe.slope;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const Term& term = pixels[k * step];
+    const double residual = term.radiance - best.coefficient * values[k].f;
+    best.squares += term.weight * residual * residual;
+    best.score += term.weight * residual * best.coefficient * values[k].by_width;
   }
   return best;
 }
 
 /// The logarithm of the width with the least sum of squares over a few thousand pixels.
 template <class Family>
-double scan(Family family, const std::vector<Term>& terms) {
-  const std::size_t stride = terms.size() / kScanned + 1;
+double scan(Family family, const LobeTerms& terms) {
+  const std::size_t stride = terms.pixels.size() / kScanned + 1;
   double least = kInfinity, at = kNaN;
   for (double u = std::log(Family::kSmallest); u <= std::log(Family::kLargest);
        u += std::log(kRatio)) {
@@ -122,7 +161,7 @@ double scan(Family family, const std::vector<Term>& terms) {
 
 /// The root of the score near `u`, or NaN.
 template <class Family>
-double refine(Family family, const std::vector<Term>& terms, double u) {
+double refine(Family family, const LobeTerms& terms, double u) {
   const auto score = [&](double v) { return best_at(family, terms, std::exp(v)).score; };
   double reach = std::log(kRatio);
   double low = u - reach, high = u + reach, at_low = score(low), at_high = score(high);
@@ -160,8 +199,9 @@ double variance_of_sum(const std::vector<Term>& terms, const std::vector<double>
 
 /// The width's standard error, by HC3; with known errors at least by these.
 template <class Family>
-double standard_error(Family family, const std::vector<Term>& terms, double width,
-                      double coefficient, bool shared) {
+double standard_error(Family family, const LobeTerms& all, double width, double coefficient,
+                      bool shared) {
+  const std::vector<Term>& terms = all.pixels;
   // Derivatives by the relative change of the coefficient (a) and of the width (b).
   struct Row {
     double a, b, residual;
@@ -169,9 +209,8 @@ double standard_error(Family family, const std::vector<Term>& terms, double widt
   std::vector<Row> rows;
   double aa = 0, ab = 0, bb = 0;
   for (const Term& term : terms) {
-    const Lobe lobe = family(term, width);
-    const double f = coefficient * term.scale * std::exp(lobe.log_value);
-    const double by_width = f > 0 ? f * lobe.slope : 0;
+    const LobeValue value = value_of(family, all.places_of(term), width);
+    const double f = coefficient * value.f, by_width = coefficient * value.by_width;
     rows.push_back({f, by_width, term.radiance - f});
     aa += term.weight * f * f;
     ab += term.weight * f * by_width;
@@ -193,7 +232,10 @@ double standard_error(Family family, const std::vector<Term>& terms, double widt
     together += error;
   }
   const double variance = std::max(of_noise, variance_of_sum(terms, scores));
-  return width * std::max(std::sqrt(variance), shared ? std::abs(together) : 0);
+  // Of a mean over the places of a pixel.
+  constexpr double kOfMeans = 5e-7;
+  return width * std::max({std::sqrt(variance), shared ? std::abs(together) : 0,
+                           all.nodes.empty() ? 0 : kOfMeans});
 }
 
 LobeFit no_fit(std::size_t pixels, std::string why) {
@@ -201,35 +243,36 @@ LobeFit no_fit(std::size_t pixels, std::string why) {
 }
 
 template <class Family>
-LobeFit fit_lobe(Family family, const std::vector<Term>& terms, bool shared,
-                 const std::string& what) {
+LobeFit fit_lobe(Family family, const LobeTerms& all, bool shared, const std::string& what) {
+  const std::vector<Term>& terms = all.pixels;
   const auto known =
       std::size_t(std::ranges::count_if(terms, [](const Term& term) { return term.weight > 0; }));
   if (known < kFewestPixelsOfALobe)
     return no_fit(known, fmt::format("it has {} pixels{}, too few: {} are needed", known,
                                      known < terms.size() ? " that are not clipped" : "",
                                      kFewestPixelsOfALobe));
-  const double coarse = scan(family, terms);
+  const double coarse = scan(family, all);
   if (std::isnan(coarse)) return no_fit(known, "it holds no light");
-  const double width = std::exp(refine(family, terms, coarse));
+  const double width = std::exp(refine(family, all, coarse));
   if (!(width >= Family::kSmallest && width <= Family::kLargest))
     return no_fit(known, fmt::format("no {} fits it better than its neighbours do", what));
-  const auto within = std::size_t(std::ranges::count_if(
-      terms, [&](const Term& term) { return family(term, width).log_value >= std::log(0.5); }));
+  const auto within = std::size_t(std::ranges::count_if(terms, [&](const Term& term) {
+    return family(term.centre, width).log_value >= std::log(0.5);
+  }));
   if (within < kFewestPixelsOfALobe)
     return no_fit(
         known,
         fmt::format("not resolved: {} of its pixels are above half of its peak, {} are needed",
                     within, kFewestPixelsOfALobe));
-  const Best best = best_at(family, terms, width);
+  const Best best = best_at(family, all, width);
   double brightest = 0, squares = 0;
   for (const Term& term : terms) {
-    const double value = best.coefficient * term.scale * std::exp(family(term, width).log_value);
+    const double value = best.coefficient * value_of(family, all.places_of(term), width).f;
     brightest = std::max(brightest, value);
     if (term.weight > 0) squares += (term.radiance - value) * (term.radiance - value);
   }
   return {width,
-          standard_error(family, terms, width, best.coefficient, shared),
+          standard_error(family, all, width, best.coefficient, shared),
           best.coefficient,
           std::sqrt(squares / double(known)) / brightest,
           known,
@@ -245,22 +288,24 @@ struct Candidate {
 };
 
 template <class Family>
-Candidate candidate(Family family, LobeFamily name, bool times_n_dot_l, std::vector<Term> terms,
+Candidate candidate(Family family, LobeFamily name, bool times_n_dot_l, LobeTerms terms,
                     bool shared) {
   const bool cosine = name == LobeFamily::kPhong || name == LobeFamily::kBlinnPhong;
-  for (Term& term : terms) {
-    if (times_n_dot_l) term.scale *= term.n_dot_l;
-    if (!cosine) term.scale /= term.n_dot_v;
-  }
+  const auto scale = [&](Place& place) {
+    if (times_n_dot_l) place.scale *= place.n_dot_l;
+    if (!cosine) place.scale /= place.n_dot_v;
+  };
+  for (Term& term : terms.pixels) scale(term.centre);
+  for (Place& node : terms.nodes) scale(node);
   Candidate one;
   one.family = {
       name, times_n_dot_l,
       fit_lobe(family, terms, shared, cosine ? "power of a cosine" : "microfacet distribution")};
   double residuals = 0, errors = 0;
-  for (const Term& term : terms) {
+  for (const Term& term : terms.pixels) {
     const LobeFit& fit = one.family.fit;
     const double residual =
-        term.radiance - fit.coefficient * term.scale * std::exp(family(term, fit.width).log_value);
+        term.radiance - fit.coefficient * value_of(family, terms.places_of(term), fit.width).f;
     one.residuals.push_back(residual);
     if (!(term.weight > 0)) continue;
     one.squares += term.weight * residual * residual;
@@ -272,67 +317,134 @@ Candidate candidate(Family family, LobeFamily name, bool times_n_dot_l, std::vec
   return one;
 }
 
-/// See "told apart" in the header.
+/// See "told apart" in the header. The pixels' weights decide which count.
 double told_apart(const std::vector<Term>& terms, const Candidate& better, const Candidate& worse) {
   std::vector<double> products;
-  for (std::size_t i = 0; i < terms.size(); ++i)
-    products.push_back(terms[i].weight * better.residuals[i] *
-                       (worse.residuals[i] - better.residuals[i]));
-  const double more = worse.squares - better.squares;
+  double more = 0;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const double r = better.residuals[i], d = worse.residuals[i] - r;
+    products.push_back(terms[i].weight * r * d);
+    more += terms[i].weight * (2 * r + d) * d;
+  }
   return more > 0 ? more / (2 * std::sqrt(variance_of_sum(terms, products))) : 0;
+}
+
+/// Adds a share of what the width would be off by if the other fit were the right one.
+void add_doubt(LobeFit& fit, const LobeFit& other, double share) {
+  fit.standard_error = std::hypot(fit.standard_error, share * (fit.width - other.width));
+}
+
+/// The families that explain pixels which show their centres, or their means.
+struct Explained {
+  std::vector<Candidate> families;  ///< the best first
+  LobeTerms half;                   ///< about the half vector, with the weights
+};
+
+Explained explain(std::span<const SeenLobe> pixels, bool shared, bool means) {
+  double peak = 0;
+  for (const SeenLobe& pixel : pixels) peak = std::max(peak, pixel.radiance);
+  const auto terms = [&](double SeenLobe::*angle, double LobeNode::*angle_of_node) {
+    LobeTerms result;
+    for (const SeenLobe& pixel : pixels) {
+      const double floor = peak / 1000;
+      const double weight =
+          std::isnan(pixel.error) ? 1 : 1 / (pixel.error * pixel.error + floor * floor);
+      const bool is_known = pixel.is_known && !(means && pixel.nodes.empty());
+      Term& term = result.pixels.emplace_back(
+          Term{{log_cosine(pixel.*angle), pixel.irradiance, pixel.n_dot_l, pixel.n_dot_v},
+               pixel.radiance - (means ? pixel.more_beneath : 0),
+               is_known ? weight : 0,
+               pixel.error,
+               pixel.x,
+               pixel.y});
+      if (!means) continue;
+      term.nodes = result.nodes.size();
+      term.count = pixel.nodes.size();
+      for (const LobeNode& node : pixel.nodes)
+        result.nodes.push_back({log_cosine(node.*angle_of_node), node.share * node.irradiance,
+                                node.n_dot_l, node.n_dot_v});
+    }
+    return result;
+  };
+  Explained result{{}, terms(&SeenLobe::half_vector, &LobeNode::half_vector)};
+  const LobeTerms reflection = terms(&SeenLobe::reflection, &LobeNode::reflection);
+  for (const auto& [name, of] :
+       {std::pair{LobeFamily::kPhong, &reflection}, {LobeFamily::kBlinnPhong, &result.half}}) {
+    Candidate plain = candidate(CosinePower{}, name, false, *of, shared);
+    Candidate lit = candidate(CosinePower{}, name, true, *of, shared);
+    const bool plain_is_better = plain.squares <= lit.squares || lit.family.fit.why_not.size() > 0;
+    Candidate &better = plain_is_better ? plain : lit, &other = plain_is_better ? lit : plain;
+    // Noise may have chosen.
+    if (better.family.fit.why_not.empty() && other.family.fit.why_not.empty() &&
+        told_apart(of->pixels, better, other) < kToldApart)
+      add_doubt(better.family.fit, other.family.fit, 0.5);
+    result.families.push_back(std::move(better));
+  }
+  result.families.push_back(candidate(Ggx{}, LobeFamily::kGgx, false, result.half, shared));
+  result.families.push_back(
+      candidate(Beckmann{}, LobeFamily::kBeckmann, false, result.half, shared));
+  std::ranges::stable_sort(result.families, {}, [](const Candidate& one) {
+    return one.family.fit.why_not.empty() ? one.squares : kInfinity;
+  });
+  return result;
+}
+
+std::vector<FamilyFit> families_of(const Explained& explained) {
+  std::vector<FamilyFit> result;
+  const Candidate& best = explained.families.front();
+  for (const Candidate& one : explained.families) {
+    result.push_back(one.family);
+    // Of the same peak: beyond clipped pixels another family may go far higher.
+    if (best.rms > 0) result.back().fit.residual = one.rms / best.rms * best.family.fit.residual;
+    result.back().apart =
+        one.family.fit.why_not.empty() ? told_apart(explained.half.pixels, best, one) : kNaN;
+  }
+  return result;
 }
 
 }  // namespace
 
 LobeFit fit_cosine_lobe(std::span<const LobeSample> samples) {
-  std::vector<Term> terms;
+  LobeTerms terms;
   for (const LobeSample& sample : samples) {
     if (!std::isfinite(sample.radiance) || !std::isfinite(sample.angle + sample.scale))
       return no_fit(samples.size(), "a pixel of it is not finite");
-    terms.push_back(
-        {log_cosine(sample.angle), sample.scale, sample.radiance, sample.is_known ? 1.0 : 0.0});
+    terms.pixels.push_back({{log_cosine(sample.angle), sample.scale},
+                            sample.radiance,
+                            sample.is_known ? 1.0 : 0.0,
+                            kNaN,
+                            0,
+                            0,
+                            terms.nodes.size(),
+                            sample.nodes.size()});
+    for (const LobeSample::Node& node : sample.nodes)
+      terms.nodes.push_back({log_cosine(node.angle), node.scale});
   }
   return fit_lobe(CosinePower{}, terms, false, "power of a cosine");
 }
 
+Explanation explain_highlight(std::span<const SeenLobe> pixels, bool shared, PixelsShow show) {
+  if (show != PixelsShow::kUnknown)
+    return {families_of(explain(pixels, shared, show == PixelsShow::kMeans)), show};
+  const Explained centres = explain(pixels, shared, false), means = explain(pixels, shared, true);
+  Explanation by_centres{families_of(centres), PixelsShow::kCentres};
+  Explanation by_means{families_of(means), PixelsShow::kMeans};
+  const Candidate &a = centres.families.front(), &b = means.families.front();
+  if (!b.family.fit.why_not.empty()) return by_centres;
+  if (!a.family.fit.why_not.empty()) return by_means;
+  // Of the pixels that both fit.
+  if (told_apart(means.half.pixels, b, a) >= kToldApart) return by_means;
+  if (told_apart(means.half.pixels, a, b) >= kToldApart) return by_centres;
+  for (FamilyFit& one : by_centres.families) {
+    const auto other = std::ranges::find(by_means.families, one.family, &FamilyFit::family);
+    if (one.fit.why_not.empty() && other->fit.why_not.empty()) add_doubt(one.fit, other->fit, 1);
+  }
+  by_centres.pixels = PixelsShow::kUnknown;
+  return by_centres;
+}
+
 std::vector<FamilyFit> explain_highlight(std::span<const SeenLobe> pixels, bool shared) {
-  double peak = 0;
-  for (const SeenLobe& pixel : pixels) peak = std::max(peak, pixel.radiance);
-  const auto terms = [&](double SeenLobe::*angle) {
-    std::vector<Term> result;
-    for (const SeenLobe& pixel : pixels) {
-      const double floor = peak / 1000;
-      const double weight =
-          std::isnan(pixel.error) ? 1 : 1 / (pixel.error * pixel.error + floor * floor);
-      result.push_back({log_cosine(pixel.*angle), pixel.irradiance, pixel.radiance,
-                        pixel.is_known ? weight : 0, pixel.error, pixel.n_dot_l, pixel.n_dot_v,
-                        pixel.x, pixel.y});
-    }
-    return result;
-  };
-  std::vector<Candidate> families;
-  for (const auto& [name, angle] : {std::pair{LobeFamily::kPhong, &SeenLobe::reflection},
-                                    {LobeFamily::kBlinnPhong, &SeenLobe::half_vector}}) {
-    Candidate plain = candidate(CosinePower{}, name, false, terms(angle), shared);
-    Candidate lit = candidate(CosinePower{}, name, true, terms(angle), shared);
-    families.push_back(
-        std::move(plain.squares <= lit.squares || lit.family.fit.why_not.size() > 0 ? plain : lit));
-  }
-  const std::vector<Term> half = terms(&SeenLobe::half_vector);
-  families.push_back(candidate(Ggx{}, LobeFamily::kGgx, false, half, shared));
-  families.push_back(candidate(Beckmann{}, LobeFamily::kBeckmann, false, half, shared));
-  std::ranges::stable_sort(families, {}, [](const Candidate& one) {
-    return one.family.fit.why_not.empty() ? one.squares : kInfinity;
-  });
-  std::vector<FamilyFit> result;
-  const Candidate& best = families.front();
-  for (const Candidate& one : families) {
-    result.push_back(one.family);
-    // Of the same peak: beyond clipped pixels another family may go far higher.
-    if (best.rms > 0) result.back().fit.residual = one.rms / best.rms * best.family.fit.residual;
-    result.back().apart = one.family.fit.why_not.empty() ? told_apart(half, best, one) : kNaN;
-  }
-  return result;
+  return explain_highlight(pixels, shared, PixelsShow::kCentres).families;
 }
 
 }  // namespace lobelia

@@ -9,6 +9,10 @@
 // Width:        alpha of a microfacet distribution; its roughness is the root of alpha, as in Blender and in Disney's model.
 // Search:       the coefficient is linear, so the best one is known for every width, and only the width is searched: the
 //               root of the derivative of the sum of squares, by Boost.Math's TOMS 748.
+// Pixels:       a picture shows the lobe at its pixels' centres, or its mean over each pixel with a filter. A mean is a sum
+//               over nodes, places of the pixel with weights, so the lobe is fitted and not its blurred copy. Where it is not
+//               known which of the two a picture shows, both are fitted and told apart like families; if they cannot be, half
+//               of the difference of their widths is added to the error.
 // Error:        the square root of the width's entry in the covariance matrix of the residuals by White's estimate HC3
 //               (MacKinnon, White 1985, "Some heteroskedasticity-consistent covariance matrix estimators"). It allows for
 //               noise that differs from pixel to pixel. Explanations sum it over blocks of pixels too, and the largest
@@ -24,12 +28,25 @@
 
 namespace lobelia {
 
+/// A place within a pixel whose mean is fitted, with its share of the pixel.
+struct LobeNode {
+  double share = 0;  ///< those of a pixel sum to 1; below 0 where the filter is
+  double reflection = 0, half_vector = 0;  ///< angles, radians
+  double n_dot_l = 1, n_dot_v = 1;
+  double irradiance = 0;  ///< as SeenLobe has it
+};
+
 /// A pixel of a highlight: its radiance is scale * coefficient * lobe(angle).
 struct LobeSample {
   double angle;  ///< radians, 0 to pi/2
   double scale;
   double radiance;
   bool is_known = true;  ///< false: clipped, so it is not fitted
+  /// If the pixel is a mean: angle and scale of each place, the scale times its share. It has to outlive the fit.
+  struct Node {
+    double angle, scale;
+  };
+  std::span<const Node> nodes = {};
 };
 
 struct LobeFit {
@@ -59,6 +76,17 @@ struct SeenLobe {
   double error;          ///< standard error of the radiance; NaN if unknown
   int x = 0, y = 0;      ///< of the pixel
   bool is_known = true;  ///< as LobeSample has it
+  /// For a fit of means: the places of the pixel, and how much its mean of all that lies beneath the highlight exceeds
+  /// what was subtracted at its centre. They have to outlive the fit.
+  std::span<const LobeNode> nodes = {};
+  double more_beneath = 0;
+};
+
+/// Named by records::kPixelsShow.
+enum class PixelsShow {
+  kCentres,  ///< the radiance at the pixel's centre
+  kMeans,    ///< its mean over the pixel, with the film's filter
+  kUnknown,  ///< one of the two
 };
 
 struct FamilyFit {
@@ -72,8 +100,16 @@ struct FamilyFit {
 /// Two families closer than this cannot be told apart.
 inline constexpr double kToldApart = 2;
 
-/// Every family once, the best first, those without a fit last. With errors, weights are 1 / (error^2 + (peak / 1000)^2),
-/// since no lobe is exact to less. If `shared`, errors of all pixels may have the same sign, and the worse case counts.
+struct Explanation {
+  std::vector<FamilyFit> families;  ///< every one once, the best first, those without a fit last
+  PixelsShow pixels = PixelsShow::kCentres;  ///< unknown if that was asked and cannot be told
+};
+
+/// With errors, weights are 1 / (error^2 + (peak / 1000)^2), since no lobe is exact to less. If `shared`, errors of all pixels
+/// may have the same sign, and the worse case counts. Pixels have nodes unless they show centres; one without any is not
+/// fitted.
+Explanation explain_highlight(std::span<const SeenLobe> pixels, bool shared, PixelsShow show);
+/// The families of pixels that show their centres.
 std::vector<FamilyFit> explain_highlight(std::span<const SeenLobe> pixels, bool shared);
 
 }  // namespace lobelia

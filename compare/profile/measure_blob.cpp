@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/profile/blob_measurement.hpp"
 #include "compare/profile/clipping.hpp"
 #include "compare/profile/measure_noise.hpp"
-#include "compare/profile/outline.hpp"
 #include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr double kEnergyReach = 3, kFalloffReach = 3, kFlankReach = 2.5;  // half-widths
-// 2 sigma of the pixels above half of a Gaussian, weighted by their height, over its half-width.
-constexpr double kSemiAxis = 0.941;
+constexpr double kFalloffReach = 3, kFlankReach = 2.5;  // half-widths
 
 /// A part of a picture around a blob, in its own coordinates.
 class Patch {
@@ -57,93 +55,55 @@ class Patch {
   int picture_width_, left_, top_, width_, height_;
 };
 
-/// How a blob is measured in its patch, again and again with other noise.
-struct Measurement {
-  std::vector<std::size_t> region, ring;  ///< of the patch
-  Axes rough;
-  double noise = 0;  ///< of the peak
-
-  struct Result {
-    double shift = 0;  ///< of the background
-    Outline outline;
-    Axes axes;
-    std::size_t pixels = 0;
-    double energy = 0;
-  };
-  Result measure(Field above) const {
-    Result result;
-    if (!ring.empty()) {
-      std::vector<double> values;
-      for (const std::size_t i : ring) values.push_back(above.values[i]);
-      result.shift = median(std::move(values));
-      for (double& value : above.values) value -= result.shift;
-    }
-    const std::size_t brightest =
-        *std::ranges::max_element(region, {}, [&](std::size_t i) { return above.values[i]; });
-    result.axes = rough;
-    result.pixels = region.size();
-    if (!is_smoothed(rough, noise) && above.values[brightest] > 0) {
-      const auto half = region_above(above, brightest, above.values[brightest] / 2);
-      result.axes = principal_axes(above, half, 0);
-      result.pixels = half.size();
-    }
-    result.outline = trace_outline(above, result.axes, result.axes.major, noise, brightest);
-    if (is_smoothed(rough, noise)) result.axes.centre = centroid(above, result);
-    const double half_width = result.outline.half_width(0);
-    const double reach = kEnergyReach * std::max(1.0, half_width > 0 ? kSemiAxis * half_width
-                                                                     : 2 * rough.major_sigma);
-    for (std::size_t i = 0; i < above.values.size(); ++i)
-      if (distance(pixel_centre(above, i), result.axes.centre) < reach &&
-          !std::isnan(above.values[i]))
-        result.energy += above.values[i];
-    return result;
-  }
-
- private:
-  /// Of the ellipse of the half-widths: which pixels of noise are above half would move it.
-  FilmPoint centroid(const Field& above, const Result& result) const {
-    const FilmPoint middle = result.outline.peak.place, major = rough.major;
-    const double a = result.outline.half_width(0), b = result.outline.half_width(1);
-    double sum = 0;
-    FilmPoint centre;
-    for (std::size_t i = 0; i < above.values.size(); ++i) {
-      const FilmPoint place = pixel_centre(above, i);
-      const double dx = place.x - middle.x, dy = place.y - middle.y;
-      const double u = (major.x * dx + major.y * dy) / a, v = (-major.y * dx + major.x * dy) / b;
-      if (!(u * u + v * v <= 1) || std::isnan(above.values[i])) continue;
-      sum += above.values[i];
-      centre.x += above.values[i] * place.x;
-      centre.y += above.values[i] * place.y;
-    }
-    return sum > 0 ? FilmPoint{centre.x / sum, centre.y / sum} : rough.centre;
-  }
-};
-
 double root_mean_square(const std::vector<double>& values, const std::vector<std::size_t>& at) {
   double sum = 0;
   for (const std::size_t i : at) sum += values[i] * values[i];
   return at.empty() ? 0 : std::sqrt(sum / double(at.size()));
 }
 
-/// Errors of the pixels by their own scatter, in the ring and in the blob. Between them the variance grows with the square of
-/// the height, as that of light does from few samples.
-std::vector<double> errors_by_scatter(const Field& above, const Measurement& how, double height) {
-  double base = scatter_of(above, how.ring);
-  double inside = scatter_of(above, how.region);
-  if (std::isnan(base)) base = std::isnan(inside) ? 0 : inside;
-  if (std::isnan(inside)) inside = base;
+/// Errors of the pixels by their own scatter, in the ring, on the flank and in the blob. Between them the variance is linear
+/// in the height: that of light from few samples grows with it, or with its square.
+std::vector<double> errors_by_scatter(const Field& above, const BlobMeasurement& how,
+                                      double height) {
   constexpr int kPasses = 2;
+  constexpr double kFlankFrom = 0.08, kFlankTo = 0.4;
   const Field soft = softened(above, kPasses);
-  const auto square = [&](std::size_t i) {
-    const double share = std::clamp(soft.values[i] / height, 0.0, 1.0);
-    return share * share;
+  const auto share = [&](std::size_t i) { return std::clamp(soft.values[i] / height, 0.0, 1.0); };
+  std::vector<std::size_t> flank;
+  for (std::size_t i = 0; i < above.values.size(); ++i)
+    if (share(i) > kFlankFrom && share(i) < kFlankTo &&
+        distance(pixel_centre(above, i), how.rough.centre) < kRingFrom * 2 * how.rough.major_sigma)
+      flank.push_back(i);
+  struct Level {
+    double share, variance;
   };
-  double mean = 0;
-  for (const std::size_t i : how.region) mean += square(i) / double(how.region.size());
-  const double more = mean > 0 ? std::max(0.0, inside * inside - base * base) / mean : 0;
+  std::vector<Level> levels;
+  for (const std::vector<std::size_t>* part : {&how.ring, &std::as_const(flank), &how.region}) {
+    const double scatter = scatter_of(above, *part);
+    if (std::isnan(scatter)) continue;
+    double mean = 0;
+    for (const std::size_t i : *part) mean += share(i) / double(part->size());
+    // The scatter of so many pixels is uncertain itself, and seven of them share each difference.
+    const double upper = scatter * (1 + 1 / std::sqrt(double(part->size())));
+    levels.push_back({part == &how.ring ? 0 : mean, upper * upper});
+  }
+  const auto variance = [&](double at) {
+    if (levels.empty()) return 0.0;
+    if (levels.size() == 1) return levels.front().variance;
+    const std::size_t last = levels.size() - 1;
+    const std::size_t k = last > 1 && at > levels[1].share ? 1 : 0;
+    const Level &base = levels.front(), &low = levels[k], &high = levels[k + 1];
+    // Beyond the mean of the brightest part as it does where noise is a share of the value.
+    if (at > levels[last].share)
+      return base.variance + std::max(0.0, levels[last].variance - base.variance) *
+                                 std::pow(at / levels[last].share, 2);
+    const double slope =
+        high.share > low.share ? (high.variance - low.variance) / (high.share - low.share) : 0;
+    return std::max(low.variance + slope * (at - low.share), std::min(low.variance, high.variance));
+  };
   std::vector<double> errors;
   for (std::size_t i = 0; i < above.values.size(); ++i)
-    errors.push_back(std::isnan(soft.values[i]) ? base : std::sqrt(base * base + more * square(i)));
+    errors.push_back(std::sqrt(variance(std::isnan(soft.values[i]) ? 0 : share(i))));
   return errors;
 }
 
@@ -179,12 +139,32 @@ double unevenness(const Field& above, const std::vector<std::size_t>& ring, Film
   return variance > kBeyondChance * expected ? std::sqrt(variance - expected) / 2 : 0;
 }
 
+/// How far the mean of a ring, without what is far off, is from its median: noise of few samples has a long tail.
+double skewness(const Field& above, const std::vector<std::size_t>& ring) {
+  if (ring.empty()) return 0;
+  std::vector<double> values, deviations;
+  for (const std::size_t i : ring) values.push_back(above.values[i]);
+  const double middle = median(values);
+  for (const double value : values) deviations.push_back(std::abs(value - middle));
+  constexpr double kFar = 7;
+  const double end = kFar * median(std::move(deviations));
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (std::abs(value - middle) > end) continue;
+    sum += value - middle;
+    ++count;
+  }
+  return count > 0 ? std::abs(sum / double(count)) : 0;
+}
+
 /// Sets what the ring has beyond the noise of its pixels.
-void add_texture(PixelNoise& noise, const Field& above, const Measurement& how, double semi_axis,
-                 double spread) {
+void add_texture(PixelNoise& noise, const Field& above, const BlobMeasurement& how,
+                 double semi_axis, double spread) {
   const double of_pixels = root_mean_square(noise.error, how.ring);
   noise.ring = how.ring;
-  noise.level = unevenness(above, how.ring, how.rough.centre, semi_axis, of_pixels);
+  noise.level = std::hypot(unevenness(above, how.ring, how.rough.centre, semi_axis, of_pixels),
+                           skewness(above, how.ring));
   // Twice the noise's variance is more than the spread of a ring is wrong by.
   if (how.ring.empty() || !(spread * spread > 2 * of_pixels * of_pixels)) return;
   noise.texture = std::sqrt(spread * spread - of_pixels * of_pixels);
@@ -208,8 +188,20 @@ void add_texture(PixelNoise& noise, const Field& above, const Measurement& how, 
   noise.grain = 2 * lag;
 }
 
+/// Adds the rounding of the file's numbers. Noise of more than half a step spreads it over the pixels of the ring; with less
+/// they are all rounded to the same side.
+void add_rounding(PixelNoise& noise, const BlobSource& source, const Patch& patch,
+                  double background) {
+  const double step = source.steps.at(background);
+  const double of_pixels = root_mean_square(noise.error, noise.ring);
+  if (of_pixels < step / 2) noise.level = std::hypot(noise.level, step / std::sqrt(12.0));
+  for (std::size_t i = 0; i < noise.error.size(); ++i)
+    noise.error[i] =
+        std::hypot(noise.error[i], source.steps.rounding(*source.image, patch.picture_index(i)));
+}
+
 std::array<double, 3> colour_of(const BlobSource& source, const Patch& patch, const Field& above,
-                                const Measurement& how, const std::vector<bool>& clipped,
+                                const BlobMeasurement& how, const std::vector<bool>& clipped,
                                 double radius) {
   const auto values = source.image->values();
   std::array<double, 3> colour{}, base{};
@@ -265,10 +257,10 @@ BlobFigures no_blob(std::string why) {
 BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::uint64_t seed) {
   const Field& field = source.found->field;
   const auto semi_axis_of = [](const Axes& axes) { return std::max(1.0, 2 * axes.major_sigma); };
-  Measurement how;
+  BlobMeasurement how;
   how.rough = blob.axes;
   BlobBackground background;
-  Measurement::Result result;
+  BlobMeasurement::Result result;
   // A second time from the half-widths: the first axes of a noisy blob are those of a softened picture.
   std::optional<Patch> patch;
   Field above;
@@ -306,6 +298,7 @@ BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::u
     }
   }
   add_texture(noise, above, how, semi_axis, background.spread);
+  add_rounding(noise, source, *patch, background.value);
 
   BlobFigures figures;
   figures.noise = how.noise;
@@ -321,29 +314,8 @@ BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::u
   figures.minor_half_width = resolved ? result.outline.half_width(1) : kNaN;
   figures.energy = result.energy;
 
-  const std::vector<double> errors =
-      bootstrap_errors(above, noise, 9, seed, [&](const Field& noisy, std::span<double> values) {
-        const Measurement::Result one = how.measure(noisy);
-        const double all[] = {one.shift,
-                              one.outline.peak.value,
-                              one.outline.peak.place.x,
-                              one.outline.peak.place.y,
-                              one.axes.centre.x,
-                              one.axes.centre.y,
-                              one.outline.half_width(0),
-                              one.outline.half_width(1),
-                              one.energy};
-        std::ranges::copy(all, values.begin());
-      });
-  figures.errors = {how.ring.empty() ? kNaN : errors[0],
-                    errors[1],
-                    errors[8],
-                    {errors[2], errors[3]},
-                    {errors[4], errors[5]},
-                    resolved ? errors[6] : kNaN,
-                    resolved ? errors[7] : kNaN};
-
-  const ClippedChannels channels = find_clipping(*source.image, source.largest, blob.region);
+  const ClippedChannels channels =
+      find_clipping(*source.image, source.largest, source.steps, blob.region);
   std::vector<bool> clipped(above.values.size());
   for (std::size_t i = 0; i < clipped.size(); ++i)
     clipped[i] = channels.holds(*source.image, patch->picture_index(i));
@@ -354,11 +326,30 @@ BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::u
                       fit_falloff(above, result.axes, kFlankReach, clipped, noise.error).front()};
     figures.major_half_width = clipping.flank.major_half_width.value;
     figures.minor_half_width = clipping.flank.minor_half_width.value;
-    figures.errors.major_half_width = clipping.flank.major_half_width.error;
-    figures.errors.minor_half_width = clipping.flank.minor_half_width.error;
     figures.clipped = std::move(clipping);
   } else if (resolved) {
     figures.falloff = fit_falloff(above, result.axes, kFalloffReach, clipped, noise.error);
+  }
+  std::vector<double> errors =
+      bootstrap_errors(above, noise, BlobMeasurement::Result::kFigures, seed,
+                       [&](const Field& noisy, std::span<double> values) {
+                         std::ranges::copy(how.measure(noisy).figures(), values.begin());
+                       });
+  if (!figures.falloff.empty() && figures.falloff.front().why_not.empty()) {
+    const auto of_method = how.method_errors(figures.falloff.front(), above, semi_axis);
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      if (!std::isnan(of_method[k])) errors[k] = std::hypot(errors[k], of_method[k]);
+  }
+  figures.errors = {how.ring.empty() ? kNaN : errors[0],
+                    errors[1],
+                    errors[8],
+                    {errors[2], errors[3]},
+                    {errors[4], errors[5]},
+                    resolved ? errors[6] : kNaN,
+                    resolved ? errors[7] : kNaN};
+  if (figures.clipped) {
+    figures.errors.major_half_width = figures.clipped->flank.major_half_width.error;
+    figures.errors.minor_half_width = figures.clipped->flank.minor_half_width.error;
   }
   figures.colour = colour_of(source, *patch, above, how, clipped, 1.5 * semi_axis_of(how.rough));
   figures.remark = remark_on(figures, blob.region, field.width, source.film);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/profile/blob.hpp"
+#include "compare/profile/stored_steps.hpp"
 
 namespace lobelia {
 
@@ -13,6 +14,7 @@ struct BlobSource {
   const Field* error;              ///< standard errors of the pixels; null: unknown
   bool shared = false;             ///< whether these have the same sign
   std::array<float, 3> largest{};  ///< of each channel, without the specks
+  StoredSteps steps;               ///< of the picture's file
 };
 
 BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::uint64_t seed);

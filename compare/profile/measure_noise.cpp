@@ -37,16 +37,14 @@ Field with_noise(const Field& field, const PixelNoise& noise, std::uint64_t stre
   return result;
 }
 
-/// NaN where too many are.
-double deviation(std::vector<double> values) {
+/// Root mean square of the distances from `middle`; NaN where too many are not finite.
+double spread_about(double middle, std::vector<double> values) {
   const auto all = values.size();
   std::erase_if(values, [](double x) { return !std::isfinite(x); });
   if (5 * values.size() < 4 * all || values.size() < 2) return kNaN;
-  double sum = 0, squares = 0;
-  for (const double x : values) sum += x;
-  const double mean = sum / double(values.size());
-  for (const double x : values) squares += (x - mean) * (x - mean);
-  return std::sqrt(squares / double(values.size() - 1));
+  double squares = 0;
+  for (const double x : values) squares += (x - middle) * (x - middle);
+  return std::sqrt(squares / double(values.size()));
 }
 
 }  // namespace
@@ -80,7 +78,8 @@ std::vector<double> bootstrap_errors(
   const int count =
       std::clamp(int(kMostValues / double(std::max<std::size_t>(1, field.values.size()))),
                  kFewestFields, kFields);
-  std::vector<double> errors(figures, 0);
+  std::vector<double> errors(figures, 0), without(figures, kNaN);
+  measure(field, without);
   for (const bool together : {false, true}) {
     if (together && !noise.shared) continue;
     std::vector<double> measured(figures * std::size_t(count), kNaN);
@@ -92,7 +91,7 @@ std::vector<double> bootstrap_errors(
     for (std::size_t figure = 0; figure < figures; ++figure) {
       std::vector<double> values;
       for (std::size_t k = figure; k < measured.size(); k += figures) values.push_back(measured[k]);
-      const double error = deviation(std::move(values));
+      const double error = spread_about(without[figure], std::move(values));
       errors[figure] = std::isnan(error) ? error : std::max(errors[figure], error);
     }
   }

@@ -28,8 +28,8 @@ struct PixelNoise {
   std::vector<std::size_t> ring;
 };
 
-/// Standard deviations of figures over fields with so much more noise (parametric bootstrap, as
-/// compare/uncertainty/error_bars.hpp has it). Where noise is shared, the larger one of independent and of equal noise.
+/// Root mean squares of how far figures of fields with so much more noise are from those of the field (parametric bootstrap, as
+/// compare/uncertainty/error_bars.hpp has it). So what noise adds to a figure counts, such as to the brightest pixel. Where noise is shared, the larger one of independent and of equal noise.
 /// `measure` fills the figures of a field; it is called from several threads. A figure that is NaN in more than a fifth of
 /// the fields has no error.
 std::vector<double> bootstrap_errors(

@@ -51,6 +51,9 @@ FilmPoint pixel_centre(const Field& field, std::size_t index);
 /// image processing", eq. 15). Exact for a quadratic; NaN if one of the 16 pixels around is a hole.
 double sample(const Field& field, FilmPoint place);
 
+/// The same of the logarithms, where all of them are above 0: exact for a Gaussian. Otherwise sample().
+double sample_of_highlight(const Field& field, FilmPoint place);
+
 /// Indices of the pixels of at least `level` that connect to `start` by sides and corners. `start` is the first.
 std::vector<std::size_t> region_above(const Field& field, std::size_t start, double level);
 
@@ -62,10 +65,13 @@ struct Axes {
       0;  ///< standard deviation, pixels; the variance of a pixel, 1/12, is included
   double minor_sigma = 0;  ///< likewise
 };
+/// The axes of second moments about a centre, to which no variance of a pixel is added.
+Axes axes_of_moments(FilmPoint centre, double xx, double xy, double yy);
 /// Weights each pixel by value - base. `pixels` is not empty, and the sum of the weights is positive.
 Axes principal_axes(const Field& field, const std::vector<std::size_t>& pixels, double base);
 
-/// The distance from `peak` along a unit vector at which the field first falls to `level`, pixels. NaN if a hole or the
+/// The distance from `peak` along a unit vector at which the field, as sample_of_highlight() has it, first falls to `level`,
+/// pixels. NaN if a hole or the
 /// border comes first.
 double distance_to_level(const Field& field, FilmPoint peak, FilmPoint direction, double level);
 

@@ -4,9 +4,12 @@
 // Radiance here is the mean of R, G and B.
 #pragma once
 
+#include <functional>
+
 #include "compare/profile/lobe_fit.hpp"
 #include "compare/profile/outline.hpp"
 #include "compare/uncertainty/noise.hpp"
+#include "core/constants.hpp"
 #include "records/profile.hpp"
 
 namespace lobelia {
@@ -47,6 +50,14 @@ struct LobeGeometry {
       irradiance;  ///< times reflectance and Fresnel factor, the mean of R, G and B
 };
 
+/// A pixel as the mean of its places.
+struct PixelMean {
+  std::vector<LobeNode> nodes;  ///< none if one of them does not see the lit sphere
+  std::vector<LobeSample::Node>
+      of_lobe;              ///< the same with the angle and the scale of the scene's lobe
+  double more_beneath = 0;  ///< as SeenLobe has it
+};
+
 /// The geometry of the pixels, in reading order.
 struct ProfileGeometry {
   std::span<const double> angle;        ///< radians; NaN where the light does not reach the sphere
@@ -59,6 +70,11 @@ struct ProfileGeometry {
   /// Unit vector in the picture, y down, along the plane of incidence; none if eye, sphere and light lie on a line.
   std::optional<FilmPoint> incidence = {};
   std::optional<LobeGeometry> lobes = {};
+  /// What the pixels show. Means need `mean`, of a pixel by its index; it is called from one thread.
+  PixelsShow pixels = PixelsShow::kCentres;
+  std::function<PixelMean(std::size_t pixel)> mean = {};
+  std::size_t nodes_per_pixel = 1;
+  FilmPoint middle = {kNaN, kNaN};  ///< where the scene has the highlight's peak; NaN if unknown
 };
 
 /// Half of the width between the places on both sides where the highlight has half of its peak.
@@ -83,7 +99,8 @@ struct HighlightFigures {
   HalfWidth along, across;  ///< the plane of incidence; without one, x and y of the picture
   LobeFit cosine;           ///< down to the end of the blooming zone
   std::string why_not;      ///< a sentence if there is no peak or it is not resolved
-  std::vector<FamilyFit> explanations;  ///< within 3 half-widths, the best first
+  std::vector<FamilyFit> explanations;       ///< within 3 half-widths, the best first
+  PixelsShow pixels = PixelsShow::kCentres;  ///< what the explanations take them for
   std::optional<HighlightErrors> errors;
 };
 
@@ -91,6 +108,8 @@ struct HighlightFigures {
 struct PictureFacts {
   const PictureNoise* noise = nullptr;  ///< null: unknown
   std::vector<bool> clipped = {};       ///< of each pixel; empty: none. Fits leave these out.
+  /// Standard deviation of the rounding of each pixel's radiance in the file; empty: unknown.
+  std::vector<double> rounding = {};
   bool thorough = false;  ///< standard errors and explanations are wanted; they need the lobes
 };
 

@@ -79,6 +79,8 @@ records::HighlightFigures figures_record(const HighlightFigures& figures) {
   record.because = figures.why_not;
   for (const FamilyFit& family : figures.explanations)
     record.explanations.push_back(explanation_record(family));
+  if (!figures.explanations.empty())
+    record.pixels_show = records::kPixelsShow[std::size_t(figures.pixels)];
   if (figures.errors) record.standard_errors = errors_record(*figures.errors);
   return record;
 }

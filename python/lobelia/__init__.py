@@ -261,7 +261,8 @@ def profile(
     """Measures the highlights of a picture: peak, widths, energy and curve (docs/profiles.md).
 
     With `scene` it measures each highlight of the scene and compares it with the formula; `light` and `sphere` choose
-    one, and `overrides` are those of `render`. Without a scene it looks for highlights: `at` = (x, y) in pixels from
+    one, and `overrides` are those of `render` and `filter`: "box", "gaussian,1.5" or "none" for how the pictures were
+    averaged over their pixels. Without a scene it looks for highlights: `at` = (x, y) in pixels from
     the upper left corner chooses one, `region` = (x, y, width, height) is where to look, and `least` is the share of
     the brightest highlight below which others are left out.
 

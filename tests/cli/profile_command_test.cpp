@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
 
@@ -59,6 +61,31 @@ TEST_F(ProfileCommand, SaysFirstWhatExplainsTheHighlight) {
   EXPECT_THAT(run({"profile", "other.exr", "--scene", oblique_}).output_tail,
               StartsWith("other: this highlight is best explained by exponent 121.00000 +- 0.00012 "
                          "of Blinn-Phong times N.L\n"));
+}
+
+TEST_F(ProfileCommand, FitsTheMeansOfAPictureOfManySamples) {
+  const std::string scene = kScenes + "head_on.xml";
+  ASSERT_EQ(run({"render", scene, "--samples", "256", "-o", "many.exr"}).exit_code, 0);
+  const auto exponent = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"profile", "many.exr", "--scene", scene, "--light", "0"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Json record = record_of(arguments);
+    const Json& figures = record["images"]["many"]["highlight"];
+    const Json& best = figures["explanations"][0];
+    return std::tuple(figures["pixelsShow"].get<std::string>(), best["family"].get<std::string>(),
+                      best["exponent"].get<double>());
+  };
+  // The scene says one sample: the picture tells.
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--samples", "256"}, {"--filter", "box"}}) {
+    const auto [pixels, family, n] = exponent(more);
+    EXPECT_EQ(pixels, "means");
+    EXPECT_EQ(family, "phong");
+    EXPECT_NEAR(n, 64, 0.005);
+  }
+  const auto [pixels, family, n] = exponent({"--filter", "none"});
+  EXPECT_EQ(pixels, "centres");
+  EXPECT_LT(n, 63.95);
 }
 
 TEST_F(ProfileCommand, OfASceneMeasuresEveryHighlightUnlessOneIsChosen) {
@@ -147,6 +174,12 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
   } mistakes[] = {
       {{"two_lights.exr", "--light", "1"}, 2, "--light requires --scene"},
       {{"two_lights.exr", "--exponent", "9"}, 2, "--exponent requires --scene"},
+      {{"two_lights.exr", "--filter", "box"}, 2, "--filter requires --scene"},
+      {{"two_lights.exr", "--scene", two_lights_, "--filter", "boks"}, 2, "boks"},
+      {{"two_lights.exr", "--scene", two_lights_, "--filter", "box,0"},
+       2,
+       "--filter 'box,0': a radius is 0.1 to 16 pixels"},
+      {{"two_lights.exr", "--scene", two_lights_, "--filter", "box,nan"}, 2, "a radius is"},
       {{"two_lights.exr", "--scene", two_lights_, "--svg", "a.svg"},
        2,
        "--svg draws one highlight"},

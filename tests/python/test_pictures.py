@@ -286,6 +286,7 @@ def test_noise_makes_the_verdict_same_or_different(scene, tmp_path):
         (lambda s, a: lobelia.compare(a, "absent.exr"), ["compare", "A", "absent.exr"]),
         (lambda s, a: lobelia.compare(a, a, layer="Z"), ["compare", "A", "A", "--layer", "Z"]),
         (lambda s, a: lobelia.profile(a, region=(0, 0, 999, 9)), ["profile", "A", "--region", "0,0,999,9"]),
+        (lambda s, a: lobelia.profile(a, scene=s, filter="boks"), ["profile", "A", "--scene", "S", "--filter", "boks"]),
         (lambda s, a: lobelia.reference(s, "povrey"), ["reference", "S", "--engine", "povrey"]),
         (lambda s, a: lobelia.write("no/such/folder.exr", lobelia.read(a)), None),
     ],
@@ -385,6 +386,17 @@ def test_a_profile_without_a_scene_finds_a_gaussian():
         lobelia.profile(spot, light=0)
     with pytest.raises(lobelia.UsageError, match="without a scene"):
         lobelia.profile(spot, scene="a.xml", at=(1, 1))
+
+
+def test_a_profile_takes_pixels_for_means_if_told(scene):
+    one = {"width": 96, "height": 96}
+    many = lobelia.render(scene, samples=64, **one)
+    found = {}
+    for filter in ("box", "none"):
+        figures = lobelia.profile(many, scene=scene, light=0, filter=filter, **one).images["a"].highlight
+        found[figures.pixels_show] = figures.explanations[0].exponent
+    assert found["means"] == pytest.approx(64, rel=1e-3)
+    assert found["centres"] < 63.8
 
 
 def test_the_analytic_reference_agrees_with_a_render(scene):
