@@ -1,0 +1,51 @@
+// How often the figures of profiles lie within their stated errors of the truth, by kind of picture.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lobelia::profile_study {
+
+/// Of one figure in all pictures of a kind.
+struct Tally {
+  int figures = 0;     ///< that have a standard error
+  int within_one = 0;  ///< standard error of the truth
+  int within_two = 0;
+  int missing = 0;                  ///< not measured, or without a standard error
+  double worst = 0;                 ///< the largest distance, in standard errors
+  std::vector<double> errors = {};  ///< stated, as shares of the true value or in pixels
+
+  void add(double found, double truth, double error, double unit);
+  double share() const {
+    return figures + missing > 0 ? double(within_two) / (figures + missing) : 0;
+  }
+};
+
+struct Row {
+  std::string kind;
+  int pictures = 0;
+  std::map<std::string, Tally> figures;  ///< by name
+
+  /// Over all figures.
+  double share() const;
+};
+
+/// At least this share of each kind is to lie within two stated errors.
+inline constexpr double kGoal = 0.95;
+
+struct Options {
+  int pictures = 24;  ///< of each kind
+  unsigned seed = 1;
+  std::string only = {};  ///< the kind of this name; empty: all
+};
+
+/// `show` is called with the share that is done, from one thread. Pictures are measured on several threads; the result does
+/// not depend on them.
+std::vector<Row> measure(const Options& options, const std::function<void(double)>& show);
+
+std::string report_text(const std::vector<Row>& rows, bool markdown);
+bool meets_goal(const std::vector<Row>& rows);
+
+}  // namespace lobelia::profile_study
