@@ -149,7 +149,8 @@ std::string read_file(const InputFile& file, std::uint64_t max_bytes) {
 fs::file_type file_type_at(const fs::path& path, ExitCode otherwise) {
   std::error_code error;
   const fs::file_type type = fs::status(path, error).type();
-  if (type == fs::file_type::none)
+  // A file that is missing is no fault. Of one that is too large for its size to be told, GCC's library says "unknown".
+  if (error && type != fs::file_type::not_found)
     throw failure_of(path.string() + ": cannot read", error.value(), otherwise);
   return type;
 }

@@ -97,8 +97,7 @@ class DisturbedFarm : public FailingFarm {
     for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
       long long pid = 0;
       if (!parse_integer(entry.path().filename().string(), pid)) continue;
-      std::ifstream file(entry.path() / "cmdline");
-      const std::string line((std::istreambuf_iterator<char>(file)), {});
+      const std::string line = command_line_of(entry.path());
       if (line.find(words) != line.npos && line.find("grid.xml") == line.npos && pid != ::getpid())
         found.push_back(int(pid));
     }

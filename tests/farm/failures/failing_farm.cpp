@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "core/image_io.hpp"
@@ -69,9 +70,7 @@ ProcessState state_of(const fs::path& process) {
 }
 
 bool is_asked_its_version(const fs::path& process) {
-  std::ifstream file(process / "cmdline");
-  const std::string words((std::istreambuf_iterator<char>(file)), {});
-  return words.find("--version") != words.npos;
+  return command_line_of(process).find("--version") != std::string::npos;
 }
 
 std::size_t number_before(const std::string& text, const std::string& words) {
@@ -209,6 +208,13 @@ std::vector<int> RunningFarm::engines(const std::string& name) const {
       found.push_back(std::stoi(process));
   }
   return found;
+}
+
+std::string command_line_of(const fs::path& process) {
+  std::ostringstream words;
+  words << std::ifstream(process / "cmdline")
+               .rdbuf();  // a process that goes meanwhile fails here, without an exception
+  return words.str();
 }
 
 bool end_soon(const std::vector<int>& processes) {

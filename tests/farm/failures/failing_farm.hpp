@@ -53,6 +53,9 @@ class RunningFarm {
   int exit_code_ = -1;
 };
 
+/// The words of a process in /proc, with zeros between them. Empty if it is gone.
+std::string command_line_of(const std::filesystem::path& process);
+
 /// Whether these processes are gone within 20 s.
 bool end_soon(const std::vector<int>& processes);
 
