@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compare/disagreement.hpp"
+#include "compare/faults.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/judge_limits.hpp"
 #include "compare/metrics/catalogue.hpp"
@@ -437,6 +438,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (result.highlight_pixels.value_or(0) > 0)
     result.blind_limits = blind_limits(judge(options.limits, result), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
+  if (finite && !is_pass(result.verdict)) result.faults = find_faults(a, b);
   return result;
 }
 

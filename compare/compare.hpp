@@ -105,6 +105,7 @@ struct Comparison {
   std::vector<std::string> disagreement;
   std::vector<std::string>
       blind_limits;  ///< sentences: what given limits cannot see, see blind_limits()
+  std::vector<records::Fault> faults;  ///< of pictures that do not pass, see find_faults()
   std::optional<Tolerance> tolerance;
   std::optional<std::int64_t> mask_pixels;       ///< inside the mask, if there was one
   std::vector<std::string> mask_of;              ///< what the mask was made of, if that is known

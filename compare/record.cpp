@@ -88,6 +88,7 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.warnings = comparison.warnings;
   record.disagreement = comparison.disagreement;
   record.blind_limits = comparison.blind_limits;
+  record.faults = comparison.faults;
   record.uncertainty = comparison.uncertainty;
   if (comparison.uncertainty) record.error_bars = comparison.error_bars;
   if (comparison.tolerance)

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/orientation.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -145,6 +147,8 @@ ReadingAnswer unpack_answer(std::string_view bytes) {
   if (message.kind != ReadingAnswer::Kind::kPicture) return message;
   if (message.width > kMaxImageSide || message.height > kMaxImageSide)
     throw std::runtime_error("a picture is too large");
+  if (message.source.orientation < kUpright || message.source.orientation > kMostOrientation)
+    throw std::runtime_error("an orientation without a meaning");
   const PixelWindow picture{0, 0, int(message.width), int(message.height)};
   for (const PixelWindow& window : {picture, message.source.data, message.source.display})
     if (!window_problem("", window).empty()) throw std::runtime_error("a picture is too large");

@@ -1,5 +1,6 @@
 
 #include "core/gain_map.hpp"
+#include "core/orientation.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "fuzz/bundle.hpp"
@@ -36,6 +37,13 @@ void check_picture_door(std::string_view bytes) {
   is_exr_that_claims_too_much(bytes);
   is_tiff_without_bits(bytes);
   is_heif_of_hdr(bytes);
+  has_subsampled_channels(bytes);
+  for (const char* format : {"jpeg", "png", "webp", "tiff", "hdr"}) {
+    const int stated = stated_orientation(bytes, format, 1);
+    const int left = orientation_left_by_libtiff(bytes, stated, 1);
+    if (std::min(stated, left) < kUpright || std::max(stated, left) > kMostOrientation)
+      throw std::logic_error("an orientation without a meaning");
+  }
   png_colour(bytes);
   try {
     find_gain_map("picture.jpg", bytes);

@@ -164,6 +164,16 @@ void define_comparison_tables(Tables& tables) {
   });
   tables.define<LayersInOne>(
       "Layers that one file alone has. One that b alone has is a difference.");
+  tables.define<Fault>(
+      "A kind of difference that the values themselves tell; compare/faults.hpp says how.",
+      [](auto& t) {
+        t.key("kind").one_of(kFaultKinds);
+        t.key("picture", "the one that is so against the other: a or b");
+        t.key("value", "of that picture: the level at which it is clipped, or the bright pixel");
+        t.key("other", "of the other picture there, at most");
+        t.keys({"x", "y"}).unit("pixels");
+        t.key("rest", "the largest difference of all other pixels, by the other picture's peak");
+      });
   tables.define<Comparison>("A picture compared with a reference.", [](auto& t) {
     t.kind("comparison");
     t.key("verdict",
@@ -181,6 +191,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("warnings", "limits that are no part of the verdict").if_any();
     t.key("disagreement", "sentences: which limits say opposite things by far");
     t.key("blindLimits", "sentences: what the limits that were given cannot see").if_any();
+    t.key("faults", "of a picture that does not pass").if_any();
     t.key("errorBars", "by metric, where the noise is known");
     t.key("layers",
           "what was compared besides the display window of the picture: its alpha, overscan, "

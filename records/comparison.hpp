@@ -150,6 +150,17 @@ struct LayersInOne {
   std::vector<std::string> a, b;
 };
 
+/// A kind of difference that the values tell.
+inline constexpr std::string_view kFaultKinds[] = {"clipped", "encoded as sRGB",
+                                                   "one bright pixel"};
+
+struct Fault {
+  std::string kind, picture;
+  std::optional<double> value, other;
+  std::optional<int> x, y;
+  std::optional<double> rest;
+};
+
 struct Comparison {
   std::string verdict, a, b;
   Nonfinite nonfinite;
@@ -161,6 +172,7 @@ struct Comparison {
   std::vector<NotMeasured> not_measured;
   std::vector<Limit> limits, warnings;
   std::vector<std::string> disagreement, blind_limits;
+  std::vector<Fault> faults;
   std::optional<Uncertainty> uncertainty;
   std::optional<Named<ErrorBar>> error_bars;
   std::optional<Tolerance> tolerance;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "compare/faults.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/constants.hpp"
 #include "core/text.hpp"
@@ -269,6 +270,10 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
 
 std::string highlight_sentence(const Comparison& comparison, std::string_view a,
                                std::string_view b) {
+  // What explains the whole difference says more than figures of the highlight.
+  std::vector<std::string> faults;
+  for (const records::Fault& fault : comparison.faults) faults.push_back(fault_text(fault, a, b));
+  if (!faults.empty()) return fmt::format("{}", fmt::join(faults, "; "));
   const double energy = comparison.value("energy.highlight");
   if (std::isnan(energy)) return "";
   if (energy == -1) return fmt::format("{} has no highlight where {} has one", a, b);

@@ -105,7 +105,8 @@ struct MetricSummary {
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
 /// What an artist would say of the highlight: "a's highlight is 4 % wider and 7 % dimmer, its energy equal; 0.5 pixels to
-/// the left". Empty if it was not measured.
+/// the left". In place of that, faults that explain the difference: "a is clipped at 1 where b goes up to 12". Empty if it was
+/// not measured.
 std::string highlight_sentence(const Comparison& comparison, std::string_view a = "a",
                                std::string_view b = "b");
 

@@ -417,6 +417,11 @@ TEST(Answers, OfAReaderThatAHostileFileTookOverAreRefusedOrHarmless) {
   for (std::size_t length = 0; length < whole.size(); ++length)
     EXPECT_THROW(unpack_answer(whole.substr(0, length)), std::runtime_error) << length;
   EXPECT_THROW(unpack_answer(whole + "x"), std::runtime_error);
+  for (const int orientation : {-1, 0, 9}) {
+    ReadingAnswer odd = answer;
+    odd.source.orientation = orientation;
+    EXPECT_THROW(unpack_answer(pack(odd)), std::runtime_error);
+  }
   std::mt19937 random(18);
   int refused = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -426,6 +431,8 @@ TEST(Answers, OfAReaderThatAHostileFileTookOverAreRefusedOrHarmless) {
     try {
       const ReadingAnswer read = unpack_answer(changed);
       if (read.kind != ReadingAnswer::Kind::kPicture) continue;
+      EXPECT_GE(read.source.orientation, 1);
+      EXPECT_LE(read.source.orientation, 8);
       EXPECT_GE(read.width, 1u);
       EXPECT_LE(read.width * read.height, std::uint64_t(kMaxImagePixels));
     } catch (const std::runtime_error&) {
