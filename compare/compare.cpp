@@ -39,15 +39,6 @@ std::int64_t count_nonfinite_pixels(const Image& image) {
   return count;
 }
 
-bool have_equal_values(const Image& a, const Image& b) {
-  bool equal = true;
-  in_parts(a.values().size(), 2 * sizeof(float), [&](std::size_t begin, std::size_t end) {
-    const auto part = [&](const Image& of) { return of.values().subspan(begin, end - begin); };
-    equal = equal && std::ranges::equal(part(a), part(b));
-  });
-  return equal;
-}
-
 void require_range(std::string_view what, double value, double min, double max) {
   if (!(value >= min && value <= max))
     throw Error(ExitCode::kUsage,

@@ -40,7 +40,7 @@ std::string names_text(const std::vector<std::string>& layers) {
 }
 
 bool are_identical(const Image& a, const Image& b) {
-  return std::ranges::equal(a.values(), b.values()) && is_finite(a);
+  return have_equal_values(a, b) && is_finite(a);
 }
 
 /// Compares the layer and its overscan, if there is one.

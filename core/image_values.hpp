@@ -29,6 +29,17 @@ inline bool is_finite(const Image& image) {
   return finite;
 }
 
+/// Whether they have one size and every value equals the other's; NaN equals nothing.
+inline bool have_equal_values(const Image& a, const Image& b) {
+  if (a.width() != b.width() || a.height() != b.height()) return false;
+  bool equal = true;
+  in_parts(a.values().size(), 2 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+    const auto part = [&](const Image& of) { return of.values().subspan(begin, end - begin); };
+    equal = equal && std::ranges::equal(part(a), part(b));
+  });
+  return equal;
+}
+
 /// The brightest R, G or B value; 0 without a positive value.
 inline double peak_value(const Image& image) {
   // Several at once: each would wait for the one before.
