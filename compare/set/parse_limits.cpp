@@ -31,6 +31,9 @@ MetricLimit parse_limit(std::string_view where, const std::string& text) {
                 fmt::format("{} {}: {} is no share, so its limit is no percentage", where,
                             printable(text), limit.metric));
   if (is_percent) limit.limit /= 100;
+  if (output && output->better != Better::kNeither)
+    if (const std::string problem = limit_problem(*output, limit.limit); !problem.empty())
+      throw Error(ExitCode::kUsage, fmt::format("{} {}: {}", where, printable(text), problem));
   return limit;
 }
 

@@ -146,6 +146,8 @@ TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
   expect_refused("judged = [", "line 1, column ");
   expect_refused(two + "fial = [\"rmse=1\"]\n", "fial: there is no such key; did you mean 'fail'?");
   expect_refused(two + "fail = [\"rmse\"]\n", "fail rmse: expected METRIC=LIMIT");
+  for (const char* before : {"", "[[rules]]\nmatch = \"*\"\n"})
+    expect_refused(two + before + "fail = [\"share_over.abs=0.004=10\"]\n", "for 10 % write 0.1");
   expect_refused(two + "[[rules]]\nmatch = \"*\"\nfail = [\"nonsense=1\"]\n", "rules[0]: ");
   expect_refused(two + "[[rules]]\nfail = [\"rmse=1\"]\n", "rules[0].match: missing");
   expect_refused(two + "tolerance = \"1\"\n", "tolerance 1: expected");

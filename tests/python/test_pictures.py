@@ -281,6 +281,7 @@ def test_noise_makes_the_verdict_same_or_different(scene, tmp_path):
         (lambda s, a: lobelia.render(s, width=0), ["render", "S", "--width", "0"]),
         (lambda s, a: lobelia.render("absent.xml"), ["render", "absent.xml"]),
         (lambda s, a: lobelia.compare(a, a, limits={"rms": 1}), ["compare", "A", "A", "--fail", "rms=1"]),
+        (lambda s, a: lobelia.compare(a, a, limits={"ssim": 99}), ["compare", "A", "A", "--fail", "ssim=99"]),
         (lambda s, a: lobelia.compare(a, a, metrics="rms"), ["compare", "A", "A", "--metrics", "rms"]),
         (lambda s, a: lobelia.compare(a, a, crop="0,0,999,1"), ["compare", "A", "A", "--crop", "0,0,999,1"]),
         (lambda s, a: lobelia.compare(a, "absent.exr"), ["compare", "A", "absent.exr"]),
