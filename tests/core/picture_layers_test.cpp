@@ -135,10 +135,19 @@ TEST(PictureLayers, APictureIsRgbOrElseYOrElseTheOnlyThingThereIs) {
   EXPECT_THAT(find_layer("", one, "beauty").where, ElementsAre(0, 1, 2));
 }
 
+TEST(PictureLayers, LuminanceAndChromaAreOneLayerOfColours) {
+  const std::vector<PicturePart> parts{{"", {"A", "BY", "RY", "Y", "Z"}}};
+  const PictureLayer layer = find_layer("", parts, "");
+  EXPECT_THAT(layer.where, ElementsAre(3, 2, 1));
+  EXPECT_TRUE(layer.is_colour && layer.has_chroma);
+  EXPECT_EQ(layer.alpha, "A");
+  EXPECT_THAT(names(parts), ElementsAre("", "A", "Z"));
+}
+
 TEST(PictureLayers, WhatMayMeanMoreThanOneThingIsRefusedWithTheNamesThatThereAre) {
   EXPECT_THAT(message({{{"", {"u", "v"}}}}, ""), HasSubstr("its channels are 'u', 'v'"));
-  // Half of a picture whose colours are in RY and BY.
-  EXPECT_THAT(message({{{"", {"BY", "RY", "Y"}}}}, ""), HasSubstr("'BY', 'RY', 'Y'"));
+  // Half of a picture whose colours are in RY and BY, one of which is missing.
+  EXPECT_THAT(message({{{"", {"RY", "Y"}}}}, ""), HasSubstr("'RY', 'Y'"));
   EXPECT_THAT(message({{{"", {"X", "Y", "Z"}}}}, ""), HasSubstr("'X', 'Y', 'Z'"));
   EXPECT_THAT(message({{{"", {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}}}}, ""),
               HasSubstr("a layer has to be chosen: 'a', 'b'"));
