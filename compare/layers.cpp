@@ -64,21 +64,6 @@ std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
   return results;
 }
 
-LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const PicturePair& picture,
-                              ComparisonOptions options) {
-  PicturePair pair{read_picture(a, picture.a.source.alpha),
-                   read_picture(b, picture.b.source.alpha)};
-  LayerComparison layer{picture.a.source.alpha, pair.a.source, pair.b.source};
-  take_part(pair, a.string(), b.string(), options);
-  layer.identical = are_identical(pair.a.image, pair.b.image);
-  // Alpha is a share of the pixel, not light: exposure and display do not apply.
-  options.viewing.exposure_stops = 0;
-  options.viewing.automatic = false;
-  options.viewing.display = nullptr;
-  if (!layer.identical) layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
-  return layer;
-}
-
 /// A difference if one side alone has an alpha that is not 1 everywhere: an alpha of 1 equals none.
 std::optional<LayerComparison> find_lost_alpha(const fs::path& a, const fs::path& b,
                                                const PictureSource& source_a,
@@ -235,6 +220,19 @@ Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const 
   return comparison;
 }
 
+LayerComparison compare_alpha(const std::string& name, PicturePair pair, const std::string& file_a,
+                              const std::string& file_b, ComparisonOptions options) {
+  LayerComparison layer{name, pair.a.source, pair.b.source};
+  take_part(pair, file_a, file_b, options);
+  layer.identical = are_identical(pair.a.image, pair.b.image);
+  // Alpha is a share of the pixel, not light: exposure and display do not apply.
+  options.viewing.exposure_stops = 0;
+  options.viewing.automatic = false;
+  options.viewing.display = nullptr;
+  if (!layer.identical) layer.comparison = compare_pictures(pair, file_a, file_b, options);
+  return layer;
+}
+
 CommonLayers common_layers(const fs::path& a, const fs::path& b) {
   const std::vector<std::string> in_a = layer_names(a), in_b = layer_names(b);
   CommonLayers result;
@@ -263,7 +261,9 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
   if (layers.ignore_alpha || (options.noise && alpha_in_a && alpha_in_b))
     left.alpha = alpha_in_a || alpha_in_b;
   else if (alpha_in_a && alpha_in_b)
-    result.compared.push_back(compare_alpha(a, b, picture, options));
+    result.compared.push_back(compare_alpha(
+        source_a.alpha, {read_picture(a, source_a.alpha), read_picture(b, source_b.alpha)},
+        a.string(), b.string(), options));
   else if (auto lost = find_lost_alpha(a, b, source_a, source_b, options))
     result.compared.push_back(std::move(*lost));
 

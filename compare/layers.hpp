@@ -84,6 +84,10 @@ struct OtherLayers {
   std::optional<CommonLayers> common = {};
 };
 
+/// Compares the alpha of two pictures, which messages name, at exposure 0 on a plain display. Throws as compare_pictures().
+LayerComparison compare_alpha(const std::string& name, PicturePair pair, const std::string& file_a,
+                              const std::string& file_b, ComparisonOptions options);
+
 /// Throws Error(kInput) if the files share no layer; otherwise errors as layer_names().
 CommonLayers common_layers(const std::filesystem::path& a, const std::filesystem::path& b);
 

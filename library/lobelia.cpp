@@ -174,8 +174,12 @@ Comparison compared(const CompareChoice& choice, const std::string& picture,
   report.a = picture;
   report.b = reference;
   ThreadLimit(choice.threads).run([&] {
-    PicturePair pair = in_memory ? std::move(*in_memory) : read_two(job, report);
-    report = compare_two(job, std::move(report), pair, in_memory == nullptr);
+    if (in_memory) {
+      report = compare_in_memory(job, std::move(report), *in_memory);
+      return;
+    }
+    PicturePair files = read_two(job, report);
+    report = compare_two(job, std::move(report), files);
   });
   const lobelia::Comparison& found = *report.comparison;
   Comparison result;

@@ -41,22 +41,58 @@ bool is_for_set(const CompareChoice& choice) {
          !choice.also_accept.empty() || std::ranges::any_of(choice.given, is_several);
 }
 
-/// A picture of the pair: a file to be read, or an array that is one already.
+/// A picture of the pair: a file to be read, or an array.
 struct Side {
   std::string name;
-  std::optional<Picture> picture;
+  std::optional<ArrayPicture> array;
+  bool is_file = false;
 
-  Side(const py::object& given, const std::string& letter) {
-    if (is_path(given)) {
+  Side(const py::object& given, const std::string& letter) : name(letter), is_file(is_path(given)) {
+    if (is_file)
       name = path_of(given);
-      return;
-    }
-    name = letter;
-    picture = {{image_of(given, letter), {}, {}}};
+    else
+      array = picture_of(given, letter);
   }
-  Picture read() { return picture ? std::move(*picture) : read_picture(name, ""); }
-  bool is_file() const { return !picture; }
+  /// Of a file beside an array, what an array can be compared with.
+  void read() {
+    if (!is_file) return;
+    array = ArrayPicture{read_picture(name, ""), {}, {}};
+    const std::string& alpha = array->picture.source.alpha;
+    if (!alpha.empty()) array->alpha = read_picture(name, alpha).image;
+  }
+  Picture alpha() const {
+    Picture made;
+    made.source = array->picture.source;
+    made.source.layer = "A";
+    made.source.channels = {"A"};
+    made.image = Image(array->picture.image.width(), array->picture.image.height());
+    std::ranges::fill(made.image.values(), 1.0f);
+    if (array->alpha) made.image = *array->alpha;
+    return made;
+  }
 };
+
+/// Pixels that either array masks count as equal.
+void ignore_masked(const Side& a, const Side& b, CompareJob& job) {
+  std::vector<MaskShape> shapes;
+  for (const Side* side : {&a, &b})
+    if (side->array->masked)
+      shapes.push_back({fmt::format("masked values of {}", side->name), *side->array->masked});
+  job.parts.change({}, shapes, job.comparison);
+}
+
+PairReport compare_arrays(Side& a, Side& b, PairReport report, PicturePair& pair, CompareJob& job) {
+  a.read();
+  b.read();
+  ignore_masked(a, b, job);
+  // A file's alpha counts where the array has one, too.
+  const bool has_alpha = (a.array->alpha && b.array->alpha) || (!a.is_file && a.array->alpha) ||
+                         (!b.is_file && b.array->alpha);
+  std::optional<PicturePair> alpha;
+  if (has_alpha) alpha = PicturePair{a.alpha(), b.alpha()};
+  pair = {std::move(a.array->picture), std::move(b.array->picture)};
+  return compare_in_memory(job, std::move(report), pair, std::move(alpha));
+}
 
 ComparedSet compare_set(const CompareChoice& choice, const py::object& progress) {
   ComparedSet compared;
@@ -82,21 +118,22 @@ std::shared_ptr<Compared> compare_two_pictures(const py::object& a, const py::ob
     throw Error(ExitCode::kUsage, "reference_floor is for folders and projects");
   auto compared = std::make_shared<Compared>();
   Side side_a(a, "a"), side_b(b, "b");
-  const bool files = side_a.is_file() && side_b.is_file();
+  const bool files = side_a.is_file && side_b.is_file;
   if (!files && (!choice.layer.empty() || choice.all_layers))
     throw Error(ExitCode::kUsage, "layer and all_layers are for two files; an array has no layers");
   run(py::none(), [&](const ShowProgress&) {
     ThreadLimit(choice.threads).run([&] {
-      const CompareJob job = make_job(choice, cli::scene_parts);
+      CompareJob job = make_job(choice, cli::scene_parts);
       PairReport& report = compared->report;
       report.a = side_a.name;
       report.b = side_b.name;
       PicturePair& pair = compared->pictures;
-      if (files)
+      if (files) {
         pair = read_two(job, report);
-      else
-        pair = {side_a.read(), side_b.read()};
-      report = compare_two(job, std::move(report), pair, files);
+        report = compare_two(job, std::move(report), pair);
+      } else {
+        report = compare_arrays(side_a, side_b, std::move(report), pair, job);
+      }
       compared->record = records::record_text(pair_record(report));
     });
   });

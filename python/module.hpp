@@ -8,11 +8,12 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compare/set/choice.hpp"
-#include "core/image.hpp"
+#include "core/picture.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::python {
@@ -47,8 +48,17 @@ py::array view_of(const Image& image, const py::object& owner);
 /// Throws Error(kInput) if the array, or one in the list, is a numpy.ma.MaskedArray with masked values: numbers stand there
 /// all the same. `name` is for messages.
 void refuse_masked(const py::object& array, const std::string& name);
-/// A copy, because an Image owns its values. Throws Error(kInput) unless the array is (height, width, 3) floats of a size
-/// that may be compared, and as refuse_masked(). `name` is for messages.
+/// An array as a picture.
+struct ArrayPicture {
+  Picture picture;              ///< its source says how the values became light
+  std::optional<Image> alpha;   ///< of four channels the last, in three equal ones
+  std::optional<Image> masked;  ///< 1 where numpy.ma masks a value of the pixel
+};
+/// A copy, because an Image owns its values. Floats are light, colours multiplied by alpha; uint8 are the codes of a PNG.
+/// Throws Error(kInput) unless the array is (height, width) or has 1, 3 or 4 channels, of a size that may be compared, and
+/// for a list with masked arrays. `name` is for messages.
+ArrayPicture picture_of(const py::object& array, const std::string& name);
+/// The picture alone. Also throws as refuse_masked().
 Image image_of(const py::object& array, const std::string& name);
 /// The bytes of a PNG file.
 py::bytes png_of(const DisplayImage& picture);

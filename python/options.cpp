@@ -22,6 +22,8 @@ std::optional<std::vector<std::string>> texts_of(const py::handle& value) {
   if (value.is_none()) return std::nullopt;
   if (py::isinstance<py::bool_>(value))
     return value.cast<bool>() ? std::optional(std::vector<std::string>()) : std::nullopt;
+  if (py::isinstance<py::array>(value) && value.attr("ndim").cast<int>() == 1)
+    return texts_of(value.attr("tolist")());
   if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value))
     return std::vector{path_of(py::reinterpret_borrow<py::object>(value))};
   std::vector<std::string> texts;

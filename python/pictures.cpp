@@ -7,6 +7,7 @@
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "core/picture_colour.hpp"
 #include "core/text.hpp"
 #include "python/module.hpp"
 
@@ -37,7 +38,11 @@ py::array read(const py::object& path) {
 }
 
 void write(const py::object& path, const py::object& array, double exposure) {
-  const Image image = image_of(array, "image");
+  refuse_masked(array, "image");
+  const ArrayPicture given = picture_of(array, "image");
+  if (given.alpha)
+    throw Error(ExitCode::kInput, "image: it has alpha, which would be lost; write image[..., :3]");
+  const Image& image = given.picture.image;
   const std::filesystem::path file = path_of(path);
   const std::string ending = file.extension().string();
   if (ending != ".exr" && ending != ".png")
@@ -76,37 +81,116 @@ void refuse_masked(const py::object& array, const std::string& name) {
                             name));
 }
 
-Image image_of(const py::object& object, const std::string& name) {
+namespace {
+
+/// One value of each pixel, from the array's channel `channel`.
+std::vector<float> channel_of(const float* values, std::size_t pixels, std::size_t channels,
+                              std::size_t channel) {
+  std::vector<float> one(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) one[i] = values[channels * i + channel];
+  return one;
+}
+
+/// Three equal channels.
+Image grey(const std::vector<float>& values, int width, int height) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.values().size(); ++i) image.values()[i] = values[i / 3];
+  return image;
+}
+
+/// As if the values had been read from a file: codes as those of a PNG.
+ArrayPicture as_read(const float* values, int width, int height, std::size_t channels,
+                     bool are_codes) {
+  const std::size_t pixels = std::size_t(width) * std::size_t(height);
+  ArrayPicture made;
+  PictureSource& source = made.picture.source;
+  source.format = "array";
+  source.value_type = are_codes ? "uint8" : "float";
+  source.transfer = are_codes ? "sRGB" : "linear";
+  source.data = source.display = {0, 0, width, height};
+  Image& image = made.picture.image;
+  if (channels == 1) {
+    image = grey(channel_of(values, pixels, 1, 0), width, height);
+  } else {
+    image = Image(width, height);
+    for (std::size_t i = 0; i < image.values().size(); ++i)
+      image.values()[i] = values[channels * (i / 3) + i % 3];
+  }
+  if (are_codes) decode(*named_curve("sRGB"), image);
+  if (channels < 4) return made;
+  const std::vector<float> alpha = channel_of(values, pixels, channels, 3);
+  made.alpha = grey(alpha, width, height);
+  // A PNG's colours are not multiplied by its alpha, those of floats are.
+  source.multiplied_by_alpha = are_codes;
+  if (are_codes)
+    for (std::size_t i = 0; i < image.values().size(); ++i) image.values()[i] *= alpha[i / 3];
+  return made;
+}
+
+/// 1 at the pixels of which numpy.ma masks a value; nothing if it masks none.
+std::optional<Image> masked_pixels(const py::object& object, int width, int height,
+                                   std::size_t channels) {
+  const py::module_ ma = py::module_::import("numpy.ma");
+  if (!py::isinstance(object, ma.attr("MaskedArray")) || !has_masked(object, 0))
+    return std::nullopt;
+  const auto flags = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(
+      ma.attr("getmaskarray")(object));
+  std::vector<float> any(std::size_t(width) * std::size_t(height));
+  for (std::size_t i = 0; i < channels * any.size(); ++i)
+    if (flags.data()[i] != 0) any[i / channels] = 1;
+  return grey(any, width, height);
+}
+
+}  // namespace
+
+ArrayPicture picture_of(const py::object& object, const std::string& name) {
   const py::array array = py::array::ensure(object);
   if (!array) PyErr_Clear();
   const auto fail = [&](const std::string& what) {
     throw Error(
         ExitCode::kInput,
-        fmt::format("{}: {}; a picture is a path, or an array (height, width, 3) of floats, "
-                    "linear light with Rec. 709 primaries",
+        fmt::format("{}: {}; a picture is a path, or an array (height, width), (height, width, 1), "
+                    "(height, width, 3) or (height, width, 4): floats are linear light with "
+                    "Rec. 709 primaries, uint8 are sRGB codes",
                     name, what));
   };
   if (!array || array.dtype().kind() == 'O' || array.dtype().kind() == 'U')
     fail("it is no array of numbers");
-  if (array.ndim() != 3 || array.shape(2) != 3)
+  const std::size_t channels = array.ndim() == 2   ? 1
+                               : array.ndim() == 3 ? std::size_t(array.shape(2))
+                                                   : 0;
+  if (channels != 1 && channels != 3 && channels != 4)
     fail(fmt::format("its shape is ({})",
                      fmt::join(array.shape(), array.shape() + array.ndim(), ", ")));
-  if (array.dtype().kind() != 'f')
+  const bool are_codes = array.dtype().kind() == 'u' && array.dtype().itemsize() == 1;
+  if (array.dtype().kind() != 'f' && !are_codes)
     fail(fmt::format("its values are {}", std::string(py::str(array.dtype()))));
-  refuse_masked(object, name);
   const py::ssize_t height = array.shape(0), width = array.shape(1);
   if (height < 1 || width < 1 || height > kMaxImageSide || width > kMaxImageSide ||
       height * width > kMaxImagePixels)
     throw Error(ExitCode::kInput,
                 fmt::format("{}: it has {} x {} pixels; allowed: 1 to {} a side, {} in all", name,
                             width, height, kMaxImageSide, kMaxImagePixels));
-  const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(array);
+  const bool is_masked_array =
+      py::isinstance(object, py::module_::import("numpy.ma").attr("MaskedArray"));
+  if (!is_masked_array) refuse_masked(object, name);  // a list of masked arrays
+  std::optional<Image> masked = masked_pixels(object, int(width), int(height), channels);
+  auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(array);
   if (!values) throw py::error_already_set();
-  Image image{int(width), int(height)};
   const float* const from = values.data();
   const py::gil_scoped_release released;
-  std::copy_n(from, image.values().size(), image.values().begin());
-  return image;
+  std::vector<float> codes;
+  if (are_codes)
+    for (py::ssize_t i = 0; i < values.size(); ++i) codes.push_back(from[i] / 255.0f);
+  ArrayPicture made =
+      as_read(are_codes ? codes.data() : from, int(width), int(height), channels, are_codes);
+  made.masked = std::move(masked);
+  return made;
+}
+
+Image image_of(const py::object& object, const std::string& name) {
+  refuse_masked(object, name);
+  return picture_of(object, name).picture.image;
 }
 
 void add_pictures(py::module_& module) {

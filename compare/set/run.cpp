@@ -66,10 +66,9 @@ ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, Image&
 
 /// Judges pictures that are ready, by the options of the pair.
 void judge_pair(PairReport& pair, PicturePair& pictures, const CompareJob& job,
-                ComparisonOptions& options, bool choose_exposures, bool are_files) {
+                ComparisonOptions& options, bool choose_exposures) {
   const Image& a = pictures.a.image;
   Image& b = pictures.b.image;
-  if (are_files) pair.sources = {pictures.a.source, pictures.b.source};
   if (choose_exposures)
     options.viewing.hdr_exposures = exposures_or_why_not(b, *options.viewing.hdr_exposures);
   std::optional<ReferenceFloor> floor;
@@ -79,7 +78,13 @@ void judge_pair(PairReport& pair, PicturePair& pictures, const CompareJob& job,
                      at_exposures_of(a, b, options));
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
   pair.comparison->reference_floor = std::move(floor);
-  if (are_files) pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
+}
+
+/// Everything besides the picture that two files hold.
+void compare_rest(PairReport& pair, const PicturePair& pictures, const CompareJob& job,
+                  const ComparisonOptions& options) {
+  pair.sources = {pictures.a.source, pictures.b.source};
+  pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
 }
 
 /// Makes pictures that were read ready to be judged: with the noise, and the parts that are compared.
@@ -102,7 +107,8 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
   const SteadyFile file_a(pair.a), file_b(pair.b);
   ComparisonOptions options = job.comparison;
   PicturePair pictures = read_compared(pair, job, pairing, options);
-  judge_pair(pair, pictures, job, options, choose_exposures, true);
+  judge_pair(pair, pictures, job, options, choose_exposures);
+  compare_rest(pair, pictures, job, options);
   if (job.hash_files) pair.hashes = {file_a.digest(), file_b.digest()};
   if (look) look(pair, pictures.a.image, pictures.b.image);
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -215,11 +221,26 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job, const P
   return pictures;
 }
 
-PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures,
-                       bool are_files) {
+PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures) {
   ComparisonOptions options = job.comparison;
   prepare(pictures, pair, "", job, options);
-  judge_pair(pair, pictures, job, options, has_automatic_exposures(options), are_files);
+  judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
+  compare_rest(pair, pictures, job, options);
+  return pair;
+}
+
+PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair& pictures,
+                             std::optional<PicturePair> alpha) {
+  ComparisonOptions options = job.comparison;
+  prepare(pictures, pair, "", job, options);
+  judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
+  if (!alpha) return pair;
+  OtherLayers& others = pair.layers.emplace();
+  if (job.layers.ignore_alpha || options.noise)
+    others.not_compared.alpha = true;
+  else
+    others.compared.push_back(
+        compare_alpha("A", *std::move(alpha), pair.a, pair.b, std::move(options)));
   return pair;
 }
 

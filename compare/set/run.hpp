@@ -29,10 +29,12 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job, const P
 
 /// Reads both files as they are: the chosen layer, whole. Throws as read_pair().
 PicturePair read_two(const CompareJob& job, const PairReport& pair);
-/// Compares two pictures that were read by read_two(), or that are in memory, and cuts them to what is compared. `pair` has
-/// their files, or names for messages; its files' other layers are compared, too. Throws as compare_pictures().
-PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures,
-                       bool are_files);
+/// Compares two pictures that were read by read_two(), and cuts them to what is compared, and the files' other layers.
+/// `pair` has the files. Throws as compare_pictures().
+PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures);
+/// The same of pictures in memory, which messages name as `pair` does. `alpha` is judged where there is one.
+PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair& pictures,
+                             std::optional<PicturePair> alpha = std::nullopt);
 
 /// Looks at the pictures of a pair that was compared. Called from any thread.
 using LookAtPair = std::function<void(const PairReport& pair, const Image& a, const Image& b)>;

@@ -193,13 +193,15 @@ def compare(
 ) -> Union[Comparison, ComparisonSet]:
     """Compares picture `a` with the reference `b`: metrics, and a verdict with its reasons.
 
-    Each is a path or an array (height, width, 3) of floats, linear light. An array is copied once, to float32, because
-    the comparison keeps its pictures. `metrics` names what to measure (docs/metrics.md). `limits` are
+    Each is a path or an array: (height, width) or (height, width, 1) is grey, (height, width, 3) is RGB, (height, width, 4)
+    has alpha. Floats are linear light, multiplied by alpha; uint8 are sRGB codes, as a PNG has them. An array is copied
+    once, to float32, because the comparison keeps its pictures. `metrics` names what to measure (docs/metrics.md). `limits` are
     `{"rmse": 0.001}` or `["rmse=0.001"]`, and add to the default limits unless `default_limits` is false.
 
     Options are those of `lobelia compare`: `tolerance="6e-4,1e-8,3"`, `scene`, `mask`, `ignore`, `crop`, `exposure`,
     `exposures`, `a_replicate`, `a_error` and more; `layer`, `all_layers` and `ignore_alpha` for two files. Several
-    numbers may be a tuple, as in `crop=(x, y, width, height)`. Masked values of an array raise InputError.
+    numbers may be a tuple, a list or an array, as in `crop=(x, y, width, height)`. Pixels that a numpy.ma.MaskedArray masks
+    count as equal, as those of `ignore`.
 
     The result is true if the verdict is pass or same. It has `metrics`, `limits`, `maps` and `why`.
 

@@ -180,10 +180,12 @@ def test_html_is_escaped(image, tmp_path):
 @pytest.mark.parametrize(
     ("bad", "sentence"),
     [
-        (np.zeros((4, 4), np.float32), r"its shape is \(4, 4\)"),
-        (np.zeros((4, 4, 4), np.float32), r"its shape is \(4, 4, 4\)"),
+        (np.zeros(4, np.float32), r"its shape is \(4\)"),
+        (np.zeros((4, 4, 2), np.float32), r"its shape is \(4, 4, 2\)"),
+        (np.zeros((4, 4, 5), np.uint8), r"its shape is \(4, 4, 5\)"),
         (np.zeros((0, 4, 3), np.float32), "4 x 0 pixels"),
-        (np.zeros((4, 4, 3), np.uint8), "its values are uint8"),
+        (np.zeros((4, 4, 3), np.uint16), "its values are uint16"),
+        (np.zeros((4, 4, 3), np.int8), "its values are int8"),
         (np.zeros((4, 4, 3), bool), "its values are bool"),
         (np.zeros((4, 4, 3), complex), "its values are complex128"),
         (np.zeros((4, 4, 3), object), "no array of numbers"),
@@ -207,20 +209,6 @@ def test_a_picture_that_is_none_is_said_to_be_required(image):
             lobelia.compare(*pair)
     with pytest.raises(lobelia.InputError, match="no array of numbers"):
         lobelia.profile(None)
-
-
-def test_masked_values_are_refused(image):
-    masked = np.ma.masked_array(image, mask=np.zeros(image.shape, bool))
-    assert lobelia.compare(masked, image).passed
-    masked[3, 4, 1] = np.ma.masked
-    for bad in (masked, list(masked), [list(row) for row in masked]):
-        for call in (lambda: lobelia.compare(bad, image), lambda: lobelia.compare(image, bad),
-                     lambda: lobelia.profile(bad), lambda: lobelia.profile(image, error=bad),
-                     lambda: lobelia.write("unwritten.exr", bad)):  # fmt: skip
-            with pytest.raises(lobelia.InputError, match="masked values"):
-                call()
-    filled = masked.filled(0)
-    assert lobelia.compare(filled, filled).passed
 
 
 def test_other_layouts_are_converted(image):
@@ -253,7 +241,7 @@ def test_regions_masks_and_noise_are_those_of_the_command_line(image, scene):
 
 
 def test_several_numbers_of_an_option_are_a_tuple_or_a_list(image):
-    for part in ((1, 2, 5, 6), [1, 2, 5, 6], tuple(np.array([1, 2, 5, 6])), "1,2,5,6"):
+    for part in ((1, 2, 5, 6), [1, 2, 5, 6], tuple(np.array([1, 2, 5, 6])), np.array([1, 2, 5, 6]), "1,2,5,6"):
         crop = lobelia.compare(image, image, crop=part).crop
         assert (crop.x, crop.y, crop.width, crop.height) == (1, 2, 5, 6)
     result = lobelia.compare(image, image, exposures=(-2, 2), tolerance=(1e-3, 1e-6, 0))
