@@ -162,15 +162,20 @@ Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floor
   return tolerance;
 }
 
-CompareChoice cell_choice(double exposure_stops, const Tolerance& tolerance, bool exact) {
+Comparison judge_cell(const Image& a, const Image& b, double exposure_stops, Tolerance tolerance,
+                      std::optional<NoiseOptions> noise) {
   CompareChoice choice = plain_choice(exposure_stops);
   choice.no_default_limits = true;
-  if (!exact)
+  if (noise)
     for (const MetricLimit& limit : default_limits())
       choice.fail.push_back(fmt::format("{}={}", limit.metric, limit.limit));
   choice.tolerance =
       fmt::format("{},{},{}", tolerance.relative, tolerance.of_peak, tolerance.allowed_outliers);
-  return choice;
+  ComparisonOptions options = judging_options(choice);
+  options.highlight = false;  // profiles measure that of every cell
+  options.tolerance->edges = std::move(tolerance.edges);
+  options.noise = std::move(noise);
+  return compare(a, b, options);
 }
 
 void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
@@ -192,17 +197,14 @@ void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft
         "its picture may have noise that is not known, and no tolerance of single pixels judges that";
     return;
   }
-  Tolerance tolerance = tolerance_of(scene, task.floors);
-  ComparisonOptions options = judging_options(cell_choice(exposure, tolerance, exact));
-  // Profiles measure the highlight of every cell.
-  options.highlight = false;
-  options.tolerance->edges = std::move(tolerance.edges);
-  if (!exact) options.noise = noise_of(task.a, task.b);
-  const Comparison comparison = compare(a, b, options);
+  const Tolerance tolerance = tolerance_of(scene, task.floors);
+  std::optional<NoiseOptions> noise;
+  if (!exact) noise = noise_of(task.a, task.b);
+  const Comparison comparison = judge_cell(a, b, exposure, tolerance, std::move(noise));
 
   const std::string name = comparison_name(task.a.engine, task.b.engine);
   // White in the difference picture: the tolerance at the peak, or with noise a tenth of the peak.
-  const double relative = exact ? options.tolerance->relative + options.tolerance->of_peak : 0.1;
+  const double relative = exact ? tolerance.relative + tolerance.of_peak : 0.1;
   const double white_at = relative * peak_value(b);
   write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
   records::write_record(draft.file(name + ".json"),

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "compare/compare.hpp"
 #include "core/error.hpp"
 #include "farm/farm_engines.hpp"
 #include "farm/result_cache.hpp"
@@ -10,9 +11,6 @@
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
-
-struct CompareChoice;
-struct Tolerance;
 
 /// One result is wrong; the run goes on.
 class ResultFailure : public Error {
@@ -62,9 +60,9 @@ void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft
 /// `scene` is one that truth::evaluate() takes; edges are only of such scenes.
 Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floors);
 
-/// How a cell is judged: by the tolerance alone where both pictures are `exact`, else also by the default limits, as given
-/// ones, for the noise is known. Edges and noise come besides.
-CompareChoice cell_choice(double exposure_stops, const Tolerance& tolerance, bool exact);
+/// How a cell is judged: without noise by the tolerance alone, with noise also by the default limits, as given ones.
+Comparison judge_cell(const Image& a, const Image& b, double exposure_stops, Tolerance tolerance,
+                      std::optional<NoiseOptions> noise);
 
 /// Writes profile.json.
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <pugixml.hpp>
@@ -289,6 +290,48 @@ TEST_F(CompareFolders, FailForLinksToFoldersElsewhereWhichAreNotFollowed) {
   EXPECT_THAT(far.output_tail, HasSubstr("not followed a/far: a link to a folder elsewhere"));
   EXPECT_THAT(far.output_tail, HasSubstr("0 missing, 2 links not followed, 0 extra"));
   EXPECT_EQ(json("set.json")["linksNotFollowed"], Record({"a/far", "b/far"}));
+}
+
+TEST_F(CompareFolders, ThePageCountsAsTheSummaryDoes) {
+  for (const char* name : {"fine.exr", "off.exr", "nan.exr", "new.exr"})
+    put(std::string("a/") + name, 0.1f);
+  for (const char* name : {"fine.exr", "off.exr", "nan.exr", "gone.exr"})
+    put(std::string("b/") + name, 0.1f);
+  put("a/off.exr", 0.5f), put("a/nan.exr", std::nanf(""));
+  const std::string text = compare({"a", "b", "--html", "report"}).output_tail;
+  const std::string page = read_file(path("report/index.html"), 1 << 22);
+  const std::size_t from = page.find("<ul class=\"counts\">"), to = page.find("</ul>", from);
+  ASSERT_NE(to, page.npos);
+  std::string counts;
+  bool inside = false;
+  for (const char c : page.substr(from, to - from)) {
+    if (c == '<') inside = true;
+    if (!inside) counts += c;
+    if (c == '>') inside = false;
+  }
+  std::string printed = "3 pairs 1 pass 1 differ 1 not finite 0 errors 1 missing 1 extra";
+  std::erase(counts, '\n'), std::erase(counts, ' '), std::erase(printed, ' ');
+  EXPECT_EQ(counts, printed);
+  EXPECT_THAT(text,
+              HasSubstr("3 pairs: 1 pass, 1 differ, 1 not finite, 0 errors; 1 missing, 1 extra"));
+  for (const char* word : {"non-finite", "differs", "missing", "extra", "pass"})
+    EXPECT_THAT(page, HasSubstr(std::string(" ") + word + "</span>"));
+  EXPECT_THAT(page, Not(HasSubstr("</span> no picture")));
+  EXPECT_THAT(page, Not(HasSubstr("differs from a by")));
+}
+
+TEST_F(CompareFolders, APictureWithoutAReferenceFailsIfItIsToFail) {
+  put("a/x.exr", 0.1f), put("b/x.exr", 0.1f), put("a/new.exr", 0.1f);
+  EXPECT_EQ(compare({"a", "b"}).exit_code, 0);
+  const auto failed = compare({"a", "b", "--missing-reference", "fail", "-q", "--junit", "r.xml"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.output_tail, HasSubstr("extra       new.exr: there is no reference"));
+  EXPECT_THAT(read_file(path("r.xml"), 1 << 20), HasSubstr("tests=\"2\" failures=\"1\""));
+  EXPECT_EQ(compare({"a", "b", "--missing-reference", "no"}).exit_code, 2);
+  write_file(path("p.toml"),
+             "judged = [\"a\"]\nreferences = [\"b\"]\nmissingReference = \"fail\"\n");
+  EXPECT_EQ(compare({"--project", "p.toml"}).exit_code, 1);
+  EXPECT_EQ(compare({"--project", "p.toml", "--missing-reference", "notice"}).exit_code, 0);
 }
 
 TEST_F(CompareFolders, AFrameWithItsNumberWrittenInAnotherWayFailsASequence) {
