@@ -62,13 +62,16 @@ ExitCode run_sensitivity(const CompareArguments& options) {
     if (!has_table) fmt::print("{}", record);
   }
   if (!has_table) return code;
-  fmt::print("{}\n\n  {:<38}{:<12}{}\n", printable_path(picture), "changed copy", "verdict", "by");
+  std::size_t width = 38;
+  for (const Change& change : changes) width = std::max(width, change.name.size() + 2);
+  fmt::print("{}\n\n  {:<{}}{:<12}{}\n", printable_path(picture), "changed copy", width, "verdict",
+             "by");
   for (const Change& change : changes) {
     const std::string why = change.is_as_expected() ? change.found_by
                             : change.expected == Expected::kFound
                                 ? "NOT FOUND"
                                 : "FOUND, though it is no difference: " + change.found_by;
-    fmt::print("  {:<38}{:<{}}{}\n", change.name, verdict_name(change.verdict),
+    fmt::print("  {:<{}}{:<{}}{}\n", change.name, width, verdict_name(change.verdict),
                why.empty() ? 0 : 12, why);
   }
   fmt::print("\n{}\n", as_expected ? "These limits find what they should."

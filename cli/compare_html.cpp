@@ -11,6 +11,7 @@
 #include "cli/options.hpp"
 #include "cli/publish.hpp"
 #include "compare/highlight_region.hpp"
+#include "compare/highlights/words.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/colour.hpp"
 #include "core/files.hpp"
@@ -233,6 +234,8 @@ class ReportWriter {
         difference_picture(read.a.image, read.b.image, checked.entry.difference.white_at);
     checked.sentence = highlight_sentence(comparison, printable_path(pairing_.sets[pair.set]),
                                           printable_path(pairing_.sets[kReferenceSet]));
+    for (const std::string& sentence : sentences_on_highlights(comparison.highlights))
+      checked.sentence += (checked.sentence.empty() ? "" : "; ") + sentence;
     for (const std::string& more :
          {pair.references.size() > 1
               ? fmt::format("of {} acceptable references, this is the one that it fits best",

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "cli/compare_pictures.hpp"
+#include "compare/highlights/words.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/text.hpp"
 
@@ -73,10 +74,13 @@ std::string error_bar_text(const Comparison& comparison, std::string_view id) {
 }
 
 void print_exposures(const Viewing& viewing) {
-  if (viewing.tail_stops)
-    fmt::print(
-        "  shown at {:.3g} stops for the peak and at {:.3g} for the tail; the worse counts\n\n",
-        viewing.exposure_stops, *viewing.tail_stops);
+  if (!viewing.tail_stops) return;
+  std::string further;
+  for (const double stops : viewing.further_stops) further += fmt::format(", {:.3g}", stops);
+  fmt::print(
+      "  shown at {:.3g} stops for the peak and at {:.3g} for the tail{}; the worse counts\n\n",
+      viewing.exposure_stops, *viewing.tail_stops,
+      further.empty() ? "" : ", and for dimmer highlights at" + further.substr(1));
 }
 
 /// Noise with heavy tails, by picture.
@@ -208,6 +212,8 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
     print_limit_lines(comparison.limits, "");
     print_limit_lines(comparison.warnings, "warning: ");
   }
+  for (const std::string& sentence : sentences_on_highlights(comparison.highlights))
+    fmt::print("  {}\n", sentence);
   for (const LimitResult& limit : comparison.limits)
     if (limit.more_samples && std::isfinite(*limit.more_samples))
       fmt::print("  about {:.3g} times the samples would tell about {}\n", *limit.more_samples,

@@ -1,4 +1,4 @@
-// lobelia verify paper | stability | references | verdicts | profiles
+// lobelia verify paper | stability | references | verdicts | profiles | highlights
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/messages.hpp"
@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "studies/agreement/report.hpp"
+#include "studies/highlights/table.hpp"
 #include "studies/paper/report.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "studies/profiles/profiles.hpp"
@@ -294,6 +295,30 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
   });
 }
 
+void add_verify_highlights(CLI::App& verify, ExitCode& exit_code) {
+  auto* command = verify.add_subcommand(
+      "highlights",
+      "Try whether the default limits find a changed highlight beside a bright light");
+  auto limits = std::make_shared<WorkLimits>();
+  OptionGroup group(*command);
+  limits->add_to(group);
+  command->footer(
+      "The light has 5 to 50 000 times the highlight's peak. The highlight alone is dimmer, moved\n"
+      "or gone; rounding to half floats must pass. docs/limits.md says how each highlight is judged.\n"
+      "\n"
+      "Exit codes: 0 every change is found, 1 some are missed or rounding is a difference; 2 usage.");
+  command->callback([limits, &exit_code] {
+    limits->run([&] {
+      ProgressLine progress;
+      const auto rows = highlights::measure_table(
+          [&](double done) { progress.show(done, "highlights beside a light"); });
+      progress.clear();
+      fmt::print("{}", highlights::table_text(rows));
+      exit_code = highlights::are_right(rows) ? ExitCode::kSuccess : ExitCode::kDiffers;
+    });
+  });
+}
+
 struct VerifyProfilesArguments {
   profile_study::Options study;
   bool markdown = false;
@@ -345,12 +370,14 @@ void add_verify(CLI::App& app, ExitCode& exit_code) {
   command->footer(
       "Begin with:\n  lobelia verify paper\n  lobelia verify stability\n"
       "  lobelia verify references --small\n  lobelia verify verdicts --small\n"
-      "  lobelia verify profiles --pictures 6");
+      "  lobelia verify profiles --pictures 6\n"
+      "  lobelia verify highlights");
   add_verify_paper(*command);
   add_verify_stability(*command, exit_code);
   add_verify_references(*command, exit_code);
   add_verify_verdicts(*command, exit_code);
   add_verify_profiles(*command, exit_code);
+  add_verify_highlights(*command, exit_code);
 }
 
 }  // namespace lobelia::cli

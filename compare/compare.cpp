@@ -4,13 +4,13 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "compare/disagreement.hpp"
 #include "compare/faults.hpp"
 #include "compare/highlight_region.hpp"
+#include "compare/highlights/words.hpp"
 #include "compare/judge_limits.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
@@ -53,8 +53,8 @@ std::string_view missing_input(const Metric& metric, const ComparisonOptions& op
   const bool by_mask = metric.region == Region::kMask || metric.region == Region::kOutside;
   if (by_mask && options.mask.empty() && options.mask_of.empty())
     return "a mask (--mask or --scene)";
-  const bool of_highlight =
-      metric.region == Region::kHighlight || metric.needs == Needs::kHighlight;
+  const bool of_highlight = metric.region == Region::kHighlight ||
+                            metric.needs == Needs::kHighlight || metric.needs == Needs::kHighlights;
   if (of_highlight && !options.highlight) return "the highlight";
   if (metric.needs == Needs::kNoise && !options.noise) return "the noise of a picture";
   return {};
@@ -93,6 +93,11 @@ bool need_highlight(const MetricList& list) {
   return std::ranges::any_of(list, [](const Metric* metric) {
     return metric->region == Region::kHighlight || metric->needs == Needs::kHighlight;
   });
+}
+
+/// Whether one of them judges each highlight by itself.
+bool need_each_highlight(const MetricList& list) {
+  return std::ranges::count(list, Needs::kHighlights, &Metric::needs) > 0;
 }
 
 /// Whether one of them looks at the pictures as shown.
@@ -222,47 +227,6 @@ Verdict verdict_of(std::span<const LimitResult> limits, bool noisy) {
 
 }  // namespace
 
-ComparisonOptions usual_options() {
-  ComparisonOptions options;
-  options.viewing.automatic = true;
-  options.highlight = true;
-  return options;
-}
-
-std::span<const MetricLimit> default_limits() {
-  static const std::array<MetricLimit, 3> limits{{
-      // Engines with the same formula differ by 5e-4 of the peak if one writes half floats, otherwise by 1e-5. A
-      // wrong normalisation is off by 3 % and more.
-      {"max_rel_peak", 0.01},
-      // One step of an 8-bit display, 128 to 129 over the whole picture, has a FLIP of 0.03.
-      {"flip.ldr.mean", 0.01},
-      // 1 is about a just noticeable difference. One pixel in twenty may have more: engines sample the edge of the
-      // silhouette differently, which max_rel_peak judges.
-      {"ciede2000.p95", 1.0},
-  }};
-  return limits;
-}
-
-std::span<const MetricLimit> highlight_limits() {
-  static const std::array<MetricLimit, 5> limits{{
-      // A wrong coefficient is off by 3 % and more, a wrong exponent by half as many per cent in width.
-      {"energy.highlight", 0.01},
-      {"width.highlight", 0.01},
-      // Half a pixel is what a wrong pixel centre shifts.
-      {"shift.highlight", 0.25},
-      {"ciede2000.p95.highlight", 1.0},
-      {"flip.ldr.mean.highlight", 0.03},
-  }};
-  return limits;
-}
-
-std::string limits_text(std::span<const MetricLimit> limits, std::string_view mark) {
-  std::string text;
-  for (const auto& [metric, limit] : limits)
-    text += fmt::format("{}{}{}{} {:g}", text.empty() ? "" : ", ", mark, metric, mark, limit);
-  return text;
-}
-
 bool is_pass(Verdict verdict) { return verdict == Verdict::kPass || verdict == Verdict::kSame; }
 
 double Comparison::value(std::string_view id) const {
@@ -386,7 +350,14 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
         options.highlight && (need_highlight(list) || !options.limits.empty());
     const bool choose_exposures = need_display(list) && options.viewing.automatic;
     const Peaks peaks = find_highlight || choose_exposures ? peaks_of(a, b) : Peaks{};
-    if (need_display(list)) result.viewing = with_exposures(options.viewing, peaks);
+    const bool find_each = options.highlight && need_each_highlight(list);
+    std::vector<LocalHighlight> highlights;
+    if (find_each || (choose_exposures && needs_exposures(peaks)))
+      highlights = find_highlights(b, options.surfaces,
+                                   {options.noise ? &noise : nullptr, options.rounding});
+    if (need_display(list)) result.viewing = with_exposures(options.viewing, peaks, b, highlights);
+    if (!find_each) highlights.clear();
+    result.highlights = highlights_record(judge_highlights(a, b, highlights));
     Viewing viewing = result.viewing;
     if (!need_display(list)) viewing.display = nullptr;
     PixelFlags highlight;
@@ -405,7 +376,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
                             options.mask,
                             options.noise ? &noise : nullptr,
                             highlight,
-                            tail_as_shown(a, b, viewing),
+                            highlights,
+                            further_as_shown(a, b, viewing),
                             have_equal_values(a, b)};
     result.metrics = measure_all(list, input);
     result.not_measured = all_not_measured(list, input);

@@ -113,6 +113,8 @@ struct Comparison {
   std::optional<PixelWindow> crop;               ///< the part that was compared; if not, everything
   std::optional<std::int64_t> highlight_pixels;  ///< if it was asked for, and all values are finite
   double highlight_share = 0;                    ///< of all pixels, likewise
+  /// The reference's highlights, each judged by itself, the worst first; empty if they were not asked for.
+  std::vector<records::LocalHighlight> highlights;
   std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
   /// How the noise was taken into account, if it was known and every value is finite.
   std::optional<records::Uncertainty> uncertainty;

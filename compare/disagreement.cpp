@@ -79,8 +79,12 @@ std::vector<std::string> disagreements(std::span<const LimitResult> limits) {
         continue;
       const Metric &fails = *find_metric(failing.metric), &passes = *find_metric(passing.metric);
       // How wide a highlight is says nothing of its brightness.
-      const bool is_figure = fails.needs == Needs::kHighlight || passes.needs == Needs::kHighlight;
-      if (fails.family == passes.family || fails.region != passes.region || is_figure) continue;
+      const auto is_figure = [](const Metric& metric) {
+        return metric.needs == Needs::kHighlight || metric.needs == Needs::kHighlights;
+      };
+      if (fails.family == passes.family || fails.region != passes.region || is_figure(fails) ||
+          is_figure(passes))
+        continue;
       const double over =
           share_of_limit(*find_metric_output(failing.metric), failing.value, failing.limit);
       const double under =

@@ -7,14 +7,13 @@
 #include <cmath>
 #include <utility>
 
+#include "compare/highlights/find.hpp"
 #include "core/colour.hpp"
 #include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {
 
-/// The darkest light that is not black on an 8-bit sRGB display.
-constexpr double kDimmestShown = 0.5 / 255 / 12.92;
 /// A picture that is so many times brighter than the other has a firefly, which would hide everything else.
 constexpr double kFarBrighter = 64;
 
@@ -26,6 +25,12 @@ void grow_row(std::span<const std::uint8_t> row, std::size_t radius, std::uint8_
     const std::size_t end = std::min(row.size(), i + radius + 1);
     for (next = std::max(next, i > radius ? i - radius : 0); next < end; ++next) out[next] = 1;
   }
+}
+
+/// The peak that the first exposure shows.
+double exposed_peak(const Peaks& peaks) {
+  const auto [least, most] = std::minmax({peaks.a, peaks.b});
+  return least > 0 && most > kFarBrighter * least ? least : most;
 }
 
 }  // namespace
@@ -84,20 +89,39 @@ PixelFlags grown(std::span<const std::uint8_t> region, int width, int radius) {
   return result;
 }
 
-Viewing with_exposures(Viewing viewing, const Image& a, const Image& b) {
-  return viewing.automatic ? with_exposures(viewing, peaks_of(a, b)) : viewing;
+bool needs_exposures(const Peaks& peaks) {
+  const double peak = exposed_peak(peaks);
+  return peak > 0 && !(peak <= 1 && peak >= kDimmestShown);
 }
 
-Viewing with_exposures(Viewing viewing, const Peaks& peaks) {
+Viewing with_exposures(Viewing viewing, const Image& a, const Image& b) {
   if (!viewing.automatic) return viewing;
-  const auto [least, most] = std::minmax({peaks.a, peaks.b});
-  const double peak = least > 0 && most > kFarBrighter * least ? least : most;
+  const Peaks peaks = peaks_of(a, b);
+  return with_exposures(
+      std::move(viewing), peaks, b,
+      needs_exposures(peaks) ? find_highlights(b) : std::vector<LocalHighlight>());
+}
+
+Viewing with_exposures(Viewing viewing, const Peaks& peaks, const Image& b,
+                       std::span<const LocalHighlight> highlights) {
+  if (!viewing.automatic) return viewing;
   viewing.exposure_stops = 0;
   viewing.tail_stops.reset();
-  if (!(peak > 0) || (peak <= 1 && peak >= kDimmestShown)) return viewing;
-  viewing.exposure_stops =
-      std::clamp(exposure_for_peak(peak), -kMaxExposureStops, kMaxExposureStops - kTailStops);
+  viewing.further_stops.clear();
+  if (!needs_exposures(peaks)) return viewing;
+  viewing.exposure_stops = std::clamp(exposure_for_peak(exposed_peak(peaks)), -kMaxExposureStops,
+                                      kMaxExposureStops - kTailStops);
   viewing.tail_stops = viewing.exposure_stops + kTailStops;
+  std::vector<double> dim;
+  for (const LocalHighlight& highlight : highlights)
+    dim.push_back(double(std::ranges::max(b.pixel(highlight.x, highlight.y))));
+  std::ranges::sort(dim, std::ranges::greater{});
+  double brightest = *viewing.tail_stops;
+  for (const double peak : dim) {
+    if (!(peak * std::exp2(brightest + kTailStops) < 1)) continue;
+    brightest = std::min(exposure_for_peak(peak), kMaxExposureStops);
+    viewing.further_stops.push_back(brightest);
+  }
   return viewing;
 }
 

@@ -8,6 +8,9 @@ namespace lobelia {
 /// A pixel is in the highlight if a value of it is at least this share of its picture's brightest value.
 inline constexpr double kHighlightShare = 0.05;
 
+/// The darkest light that is not black on an 8-bit sRGB display.
+inline constexpr double kDimmestShown = 0.5 / 255 / 12.92;
+
 /// The brightest R, G or B value of each picture; 0 without a positive value.
 struct Peaks {
   double a = 0, b = 0;
@@ -27,9 +30,14 @@ PixelFlags grown(std::span<const std::uint8_t> region, int width, int radius);
 /// Stops from the exposure that shows the peak just below white to the one that shows the tail.
 inline constexpr double kTailStops = 6;
 
-/// With `viewing.automatic`: two exposures if the brightest value of `a` and `b` would be clipped or not be shown at
-/// exposure 0, and otherwise exposure 0 alone. At the first, the brightest value is white; at the second 1/64 of it is.
+/// Whether the brightest value of `a` and `b` would be clipped or not be shown at exposure 0.
+bool needs_exposures(const Peaks& peaks);
+
+/// With `viewing.automatic`: several exposures if needs_exposures(), and otherwise exposure 0 alone. At the first, the
+/// brightest value is white; at the second 1/64 of it is. A highlight of `b` whose peak is below 1/64 of white at both gets
+/// a further exposure that shows its peak, which may show other ones as well.
 Viewing with_exposures(Viewing viewing, const Image& a, const Image& b);
-Viewing with_exposures(Viewing viewing, const Peaks& peaks);
+Viewing with_exposures(Viewing viewing, const Peaks& peaks, const Image& b,
+                       std::span<const LocalHighlight> highlights);
 
 }  // namespace lobelia

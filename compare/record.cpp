@@ -8,7 +8,7 @@ namespace {
 
 records::Viewing viewing_record(const Viewing& viewing, bool measured) {
   records::Viewing record{viewing.exposure_stops, viewing.pixels_per_degree, std::nullopt,
-                          std::nullopt, viewing.tail_stops};
+                          std::nullopt,           viewing.tail_stops,        viewing.further_stops};
   if (const auto& range = viewing.hdr_exposures; range && range->problem.empty() && measured)
     record.hdr_exposures =
         records::HdrExposures{range->start_stops, range->stop_stops, range->count, range->automatic,
@@ -82,6 +82,7 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   if (comparison.crop) record.crop = window_record(*comparison.crop);
   if (comparison.highlight_pixels)
     record.highlight = records::HighlightRegion{*comparison.highlight_pixels, kHighlightShare};
+  record.highlights = comparison.highlights;
   record.metrics = comparison.metrics;
   record.not_measured = comparison.not_measured;
   record.limits = comparison.limits;

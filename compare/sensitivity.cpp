@@ -8,7 +8,10 @@
 #include <utility>
 
 #include "compare/highlight_region.hpp"
+#include "compare/highlights/slack.hpp"
+#include "compare/highlights/words.hpp"
 #include "compare/layers.hpp"
+#include "compare/profile/peak.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_values.hpp"
@@ -95,6 +98,29 @@ Image without_brightest_highlight(const Image& image) {
   return result;
 }
 
+/// Each highlight is changed by itself, as many as these.
+constexpr std::size_t kMostChanged = 8;
+
+/// The light of a highlight over its base, times `kept`, and moved by some columns. What moves beyond the border is lost.
+Image with_highlight(const Image& image, const LocalHighlight& highlight, double kept,
+                     int columns) {
+  Image result = image;
+  const auto share_over_base = [&](std::size_t pixel) {
+    return 1 - highlight.base / radiance_at(image, pixel);
+  };
+  for_pixels(highlight.pixels, image.width(), [&](std::size_t pixel, int, int) {
+    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+      result.values()[i] -= float(share_over_base(pixel) * double(image.values()[i]));
+  });
+  for_pixels(highlight.pixels, image.width(), [&](std::size_t pixel, int x, int y) {
+    if (x + columns < 0 || x + columns >= image.width()) return;
+    for (std::size_t c = 0; c < 3; ++c)
+      result.pixel(x + columns, y)[c] +=
+          float(kept * share_over_base(pixel) * double(image.values()[3 * pixel + c]));
+  });
+  return result;
+}
+
 double as_half(double value) {
   constexpr double kSteps = 2048, kLeastNormal = 0x1p-14;
   if (std::abs(value) < kLeastNormal) return std::nearbyint(value * 0x1p24) * 0x1p-24;
@@ -153,6 +179,23 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
   add("exponent 5 % higher", pixels < kFewPixels ? Expected::kEither : Expected::kFound,
       each_value(reference, [&](double v) { return v > 0 ? peak * std::pow(v / peak, 1.05) : v; }));
   add("without its brightest highlight", Expected::kFound, without_brightest_highlight(reference));
+  const std::vector<LocalHighlight> highlights = find_highlights(reference, options.surfaces);
+  for (const LocalHighlight& one :
+       std::span(highlights).first(std::min(highlights.size(), kMostChanged))) {
+    const auto add_highlight = [&](std::string_view how, double kept, int columns) {
+      const Image changed = with_highlight(reference, one, kept, columns);
+      // What the picture's own roughness hides need not be found.
+      const bool is_clear = judge_highlight(changed, reference, one).badness() > 1;
+      add(fmt::format("{} {}", name_of_highlight(one.x, one.y), how),
+          is_clear ? Expected::kFound : Expected::kEither, changed);
+    };
+    constexpr int kColumns = 4;
+    const int columns = one.x + kColumns < reference.width() ? kColumns : -kColumns;
+    add_highlight("gone", 0, 0);
+    add_highlight("5 % dimmer", 0.95, 0);
+    add_highlight("30 % dimmer", 0.7, 0);
+    add_highlight(fmt::format("moved {} pixels", kColumns), 1, columns);
+  }
 
   add("rounded in the seventh digit", Expected::kNotFound,
       each_value(reference, [](double v) { return v * (1 + 1e-7); }));

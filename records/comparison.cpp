@@ -82,6 +82,10 @@ void define_comparison_tables(Tables& tables) {
     t.key("tailStops",
           "a second exposure, for the tail of the highlight: of two figures the worse is given")
         .unit("stops");
+    t.key("furtherStops",
+          "more of them, for highlights that are dark at both; of all figures the worst is given")
+        .unit("stops")
+        .if_any();
     t.key("pixelsPerDegree").at_least(1e-300);
     t.key("hdrExposures", "missing if HDR-FLIP was not measured");
     t.key("display", "missing for a plain sRGB display");
@@ -97,6 +101,20 @@ void define_comparison_tables(Tables& tables) {
     t.key("pixels", "before it is grown by a metric's footprint").at_least(0);
     t.key("shareOfPeak", "a value of the pixel is at least this share of its picture's brightest")
         .between(0, 1);
+  });
+  tables.define<LocalHighlight>("A highlight of b, and its errors in a.", [](auto& t) {
+    t.keys({"x", "y"}).unit("pixels");
+    t.key("peak", "radiance of its brightest pixel, which is at x, y");
+    t.key("base", "radiance around it");
+    t.key("pixels", "that connect to the peak, above a twentieth of its height").at_least(1);
+    t.key("gone", "a has less than a tenth of its light; width and shift are 0");
+    t.key("energy", "a / b - 1, over its surroundings");
+    t.key("width", "a / b - 1");
+    t.keys({"shiftX", "shiftY"}).unit("pixels");
+    t.key("excess",
+          "the largest of its three errors in units of the default limits, after what noise and "
+          "rounding explain; more than 1 differs")
+        .at_least(0);
   });
   tables.define<NotMeasured>("A metric that could not be computed. A limit on it fails.");
   tables.define<Limit>("A limit, and what was measured.", [](auto& t) {
@@ -185,6 +203,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("mask", "the part in which metrics were measured again");
     t.key("ignored", "the pixels that count as equal: in a they have the values of b");
     t.key("crop", "the part of both files that was compared; if missing, all");
+    t.key("highlights", "of b, each judged by itself; the worst 32, the worst first").if_any();
     t.key("metrics", "docs/metrics.md says what each is and what it needs").may_be_nonfinite();
     t.key("notMeasured").if_any();
     t.key("limits").items(1);

@@ -68,6 +68,7 @@ struct Viewing {
   std::optional<HdrExposures> hdr_exposures;
   std::optional<Display> display;
   std::optional<double> tail_stops;
+  std::vector<double> further_stops;
 };
 
 struct Mask {
@@ -78,6 +79,15 @@ struct Mask {
 struct HighlightRegion {
   std::int64_t pixels = 0;
   double share_of_peak = 0;
+};
+
+/// A highlight of the reference, judged by itself.
+struct LocalHighlight {
+  int x = 0, y = 0;
+  double peak = 0, base = 0;
+  std::int64_t pixels = 0;
+  bool gone = false;
+  double energy = 0, width = 0, shift_x = 0, shift_y = 0, excess = 0;
 };
 
 struct NotMeasured {
@@ -168,6 +178,7 @@ struct Comparison {
   std::optional<Mask> mask, ignored;
   std::optional<Window> crop;
   std::optional<HighlightRegion> highlight;
+  std::vector<LocalHighlight> highlights;
   Named<double> metrics;
   std::vector<NotMeasured> not_measured;
   std::vector<Limit> limits, warnings;

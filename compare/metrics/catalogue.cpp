@@ -13,6 +13,7 @@
 // defines those that end in _over.
 #define LOBELIA_METRICS(METRIC) \
   METRIC(highlight)             \
+  METRIC(highlights)            \
   METRIC(mae)                   \
   METRIC(mse)                   \
   METRIC(rmse)                  \
@@ -230,7 +231,9 @@ bool is_named(const Metric& metric, std::string_view name) {
   if (name == "all") return true;
   if (metric.region != Region::kWhole && region_name(metric.region) == name)
     return !metric.on_request;
-  if (metric.needs == Needs::kHighlight && name == region_name(Region::kHighlight)) return true;
+  if ((metric.needs == Needs::kHighlight || metric.needs == Needs::kHighlights) &&
+      name == region_name(Region::kHighlight))
+    return true;
   std::string_view stem = name;
   Region region = Region::kWhole;
   if (const std::size_t dot = name.rfind('.'); dot != name.npos)
@@ -255,6 +258,8 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return input.tolerance != nullptr;
     case Needs::kHighlight:
       return has_pixels(Region::kHighlight, input);
+    case Needs::kHighlights:
+      return !input.highlights.empty();
     case Needs::kHdrExposures:
       return input.hdr_exposures != nullptr && input.hdr_exposures->problem.empty();
     case Needs::kOneWindow:
@@ -272,12 +277,14 @@ namespace {
 /// Why the metric cannot be measured although no option is missing; otherwise empty.
 std::string obstacle(const Metric& metric, const MetricInput& input) {
   if (is_measurable(metric, input)) return "";
-  const bool of_highlight =
-      metric.region == Region::kHighlight || metric.needs == Needs::kHighlight;
+  const bool of_highlight = metric.region == Region::kHighlight ||
+                            metric.needs == Needs::kHighlight || metric.needs == Needs::kHighlights;
   const bool by_mask = metric.region == Region::kMask || metric.region == Region::kOutside;
   if ((of_highlight && input.highlight.empty()) || (by_mask && input.mask.empty())) return "";
   if (of_highlight && !has_pixels(Region::kHighlight, input))
     return "no value is positive, so there is no highlight";
+  if (metric.needs == Needs::kHighlights)
+    return "nothing in the reference stands out from its surroundings";
   if (!has_pixels(metric.region, input))
     return fmt::format("no pixel lies {} the mask",
                        metric.region == Region::kMask ? "inside" : "outside");

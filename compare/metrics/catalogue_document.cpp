@@ -5,6 +5,7 @@
 #include "compare/compare.hpp"
 #include "compare/disagreement.hpp"
 #include "compare/highlight_region.hpp"
+#include "compare/highlights/find.hpp"
 #include "compare/metrics/catalogue.hpp"
 
 namespace lobelia {
@@ -29,7 +30,7 @@ std::string needs_text(Needs needs) {
       return fmt::format("{} pixels a side", kMsSsimSide);
     default:
       constexpr std::string_view kOptions[] = {
-          "", "`--tolerance`", "", "`--exposures`", "", "", "`--a-replicate` and others"};
+          "", "`--tolerance`", "", "", "`--exposures`", "", "", "`--a-replicate` and others"};
       return std::string(kOptions[std::size_t(needs)]);
   }
 }
@@ -69,7 +70,8 @@ std::string metrics_document() {
       "\n"
       "**Exposure.** With `--exposure auto`, the default, it is 0 if a display can show the brightest value.\n"
       "Otherwise there are two: at one the brightest value of A and B is white; the other, {1:g} stops more,\n"
-      "shows the tail of the highlight. The worse figure counts; the record has both exposures.\n"
+      "shows the tail of the highlight. A highlight of B that is dark at both adds one that shows its peak. The\n"
+      "worst figure counts; the record has all exposures.\n"
       "\n"
       "**Regions.** The black around a highlight dilutes every mean and percentile. So metrics with *yes* are\n"
       "also measured\n"
@@ -83,6 +85,12 @@ std::string metrics_document() {
       "**Highlights.** `energy`, `brightness`, `width` and `shift` of the highlight first take {2:g} % of the\n"
       "peak off: a pixel counts by how far the mean of its R, G and B exceeds {2:g} % of the largest. What is\n"
       "less bright does not count. So they leave out the tail; `lobelia profile` measures the whole highlight.\n"
+      "\n"
+      "**Each highlight by itself.** `highlights.energy`, `.width` and `.shift` are the worst of all highlights of B,\n"
+      "each judged against its own peak: beside a light in view, the others are dim. A highlight is a maximum of at\n"
+      "least {5} pixels that stands out from its surroundings by a quarter of its peak; the {6} with the most light are\n"
+      "judged. What noise, rounding and the texture around it may do is taken off. `highlights.x` and `.y` are the\n"
+      "place of the worst, and the record lists up to 32. `compare/highlights/` has the formulas.\n"
       "\n"
       "**Parts.** `--ignore` gives A the values of B before anything is measured; the pixels still count in means\n"
       "and shares. `--crop` cuts both pictures first. Masks, scenes and noise have the coordinates of the whole\n"
@@ -148,7 +156,7 @@ std::string metrics_document() {
       "\n"
       "Noise passes a limit on a z itself, because it asks whether a difference was found.\n",
       kWideMargin, kTailStops, 100 * kHighlightShare, limits_text(default_limits(), "`"),
-      limits_text(highlight_limits(), "`"));
+      limits_text(highlight_limits(), "`"), kFewestPixelsOfOne, kMostHighlights);
   return text;
 }
 

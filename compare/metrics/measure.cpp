@@ -91,15 +91,17 @@ std::vector<std::vector<double>> measure_metrics(std::span<const Metric* const> 
       all[places[i]] = values;
     });
     // Metrics of one work are all shown, or none is.
-    if (!is_shown(*list[first]) || !input.shown_tail) continue;
-    MetricInput tail = input;
-    tail.shown_a = input.shown_tail->a;
-    tail.shown_b = input.shown_tail->b;
-    measure_work(of_work, tail, pixels, [&](std::size_t i, const std::vector<double>& values) {
-      std::vector<double>& worst = all[places[i]];
-      for (std::size_t k = 0; k < values.size(); ++k)
-        worst[k] = worse(of_work[i]->outputs[k], worst[k], values[k]);
-    });
+    if (!is_shown(*list[first])) continue;
+    for (const ShownPair& shown : input.shown_further) {
+      MetricInput further = input;
+      further.shown_a = shown.a;
+      further.shown_b = shown.b;
+      measure_work(of_work, further, pixels, [&](std::size_t i, const std::vector<double>& values) {
+        std::vector<double>& worst = all[places[i]];
+        for (std::size_t k = 0; k < values.size(); ++k)
+          worst[k] = worse(of_work[i]->outputs[k], worst[k], values[k]);
+      });
+    }
   }
   return all;
 }

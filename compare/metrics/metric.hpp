@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compare/display_light.hpp"
+#include "compare/highlights/find.hpp"
 #include "core/pixel_flags.hpp"
 
 namespace lobelia {
@@ -60,6 +61,8 @@ struct Viewing {
   bool automatic = false;  ///< choose the exposure of each pair, see with_exposures()
   /// A second exposure of the perceptual metrics but HDR-FLIP: the worse of two figures counts.
   std::optional<double> tail_stops = {};
+  /// More of them, each for the highlights that are dark at all before, see with_exposures().
+  std::vector<double> further_stops = {};
 };
 
 /// The picture at the exposure and on the display of `viewing`; finite values only. On a plain display it is a view,
@@ -73,13 +76,17 @@ struct ShownPair {
   DisplayLight a, b;
 };
 
-/// Both at the second exposure, if there is one.
-inline std::optional<ShownPair> tail_as_shown(const Image& a, const Image& b,
-                                              const Viewing& viewing) {
-  if (!viewing.tail_stops) return std::nullopt;
-  const DisplayView* display = viewing.display.get();
-  return ShownPair{DisplayLight::of(a, *viewing.tail_stops, display),
-                   DisplayLight::of(b, *viewing.tail_stops, display)};
+/// Both at each exposure after the first.
+inline std::vector<ShownPair> further_as_shown(const Image& a, const Image& b,
+                                               const Viewing& viewing) {
+  std::vector<ShownPair> shown;
+  const auto add = [&](double stops) {
+    shown.push_back({DisplayLight::of(a, stops, viewing.display.get()),
+                     DisplayLight::of(b, stops, viewing.display.get())});
+  };
+  if (viewing.tail_stops) add(*viewing.tail_stops);
+  for (const double stops : viewing.further_stops) add(stops);
+  return shown;
 }
 
 /// A pixel is an outlier if |a - b| > relative * |b| + of_peak * peak in any of its channels.
@@ -118,8 +125,10 @@ struct MetricInput {
   const NoiseOfPair* noise = nullptr;  ///< null if neither picture is known to have noise
   /// By pixel, not 0 in the highlight, before it is grown; empty if it was not asked for.
   std::span<const std::uint8_t> highlight = {};
-  std::optional<ShownPair> shown_tail = {};  ///< at the second exposure, if there is one
-  bool equal = false;                        ///< every value of a is b's
+  /// Those of the reference, each by itself; empty if they were not asked for.
+  std::span<const LocalHighlight> highlights = {};
+  std::vector<ShownPair> shown_further = {};  ///< at each exposure after the first
+  bool equal = false;                         ///< every value of a is b's
   /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metrics().
   std::span<const std::uint8_t> region = {};
   double threshold = 0;  ///< the metric's own. Set by measure_metrics().
@@ -171,6 +180,7 @@ enum class Needs : std::uint8_t {
   kNothing,
   kTolerance,
   kHighlight,
+  kHighlights,  ///< MetricInput::highlights
   kHdrExposures,
   kOneWindow,   ///< sides of at least kSsimSide
   kFiveScales,  ///< sides of at least kMsSsimSide

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "compare/faults.hpp"
+#include "compare/highlights/words.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/constants.hpp"
 #include "core/text.hpp"
@@ -331,6 +332,9 @@ std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
     if (!limit.pass)
       text += fmt::format("{}{} {}, limit {:g}", text.empty() ? "" : "; ", limit.metric,
                           value_text(comparison, limit), limit.limit);
+  if (const auto sentences = sentences_on_highlights(comparison.highlights);
+      !text.empty() && !sentences.empty())
+    text += "; " + sentences.front();
   return text;
 }
 

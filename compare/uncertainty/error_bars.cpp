@@ -217,7 +217,8 @@ NoisyFigures::NoisyFigures(std::span<const Metric* const> list, const MetricInpu
                       input.mask,
                       nullptr,
                       highlight,
-                      tail_as_shown(noisy_a, noisy_b, viewing)};
+                      input.highlights,
+                      further_as_shown(noisy_a, noisy_b, viewing)};
     std::vector<std::pair<double, double>> found(figures.size(), {kNaN, kNaN});
     measure_each(list, noisy, [&](const Metric&, const MetricOutput& output, double value) {
       if (const auto place = places.find(output.id); place != places.end())

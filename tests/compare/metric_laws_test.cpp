@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <set>
 
+#include "compare/highlights/find.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/picture_part.hpp"
 #include "core/scratch_memory.hpp"
@@ -42,7 +43,11 @@ std::vector<double> measure(const Metric& metric, const MetricInput& input) {
 }
 
 std::vector<double> measure(const Metric& metric, const Image& a, const Image& b) {
-  return measure(metric, fixtures::input(a, b, &kTolerance));
+  MetricInput input = fixtures::input(a, b, &kTolerance);
+  std::vector<LocalHighlight> highlights;
+  if (metric.needs == Needs::kHighlights) highlights = find_highlights(b);
+  input.highlights = highlights;
+  return measure(metric, input);
 }
 
 double measure(std::string_view id, const Image& a, const Image& b) {
@@ -87,7 +92,7 @@ TEST(EveryMetric, IsTheSameBitForBitMeasuredWithTheOthersAsAlone) {
     MetricInput input = fixtures::input(a, b, &kTolerance);
     input.mask = mask;
     input.highlight = highlight;
-    input.shown_tail = ShownPair{DisplayLight(a, 2), DisplayLight(b, 2)};
+    input.shown_further.push_back({DisplayLight(a, 2), DisplayLight(b, 2)});
     MetricList list;
     for (const Metric* metric : metrics())
       if (is_measurable(*metric, input)) list.push_back(metric);

@@ -1,0 +1,68 @@
+// The highlights of a reference, each by itself: however bright a light in view is, those beside it are found.
+//
+// Source:       ours, on the tree of a picture's maxima: P. Salembier, A. Oliveras, L. Garrido, "Antiextensive connected
+//               operators for image and sequence processing", 1998.
+// Formula:      from each maximum downward, the connected pixels above a level are counted. Where their number grows
+//               four times while the level hardly falls, there is the maximum's base: the light of its surroundings.
+//               Without such a level the base is the saddle to a higher maximum, or 0. Below a base the search goes on:
+//               a broad highlight may carry a narrow one. Height is peak less base.
+//               pixels  those that connect to the peak above base + kSkirt * height
+//               core    those of them above base + height / 2
+//               ring    some of those beyond, between 1.3 and 2.5 of their radius, within height / 4 of the base
+// Kept:         a highlight of at least kFewestPixelsOfOne pixels whose height is a quarter of its own peak, and that stands out
+//               from noise and roughness (slack.hpp). No threshold depends on the brightest pixel, but for one on light
+//               that no exposure would show.
+// Work:         bounded: a large picture is first reduced to the largest values of squares, 2^20 at the most. At most
+//               kMostHighlights are kept, those with the most light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pixel_flags.hpp"
+
+namespace lobelia {
+
+struct NoiseOfPair;  // compare/uncertainty/z_test.hpp
+
+inline constexpr std::size_t kMostHighlights = 128;
+/// A smaller one is a firefly, or a matter of the pixel filter.
+inline constexpr std::size_t kFewestPixelsOfOne = 9;
+
+/// Pixels x to end - 1 of a row.
+struct PixelRun {
+  int y = 0, x = 0, end = 0;
+};
+
+/// Radiance is the mean of R, G and B. Places are in pixels; the middle of the first pixel is (0, 0).
+struct LocalHighlight {
+  int x = 0, y = 0;  ///< the brightest pixel
+  double peak = 0, base = 0;
+  double skirt = 0;  ///< the level that bounds `pixels`
+  std::vector<PixelRun> pixels, core;
+  std::vector<std::uint32_t> ring;    ///< pixels around it, with light near the base
+  std::size_t count = 0;              ///< of pixels
+  double centre_x = 0, centre_y = 0;  ///< of the radiance over the skirt
+  /// What errors are divided by; see judge.hpp. Of the core's radiance, of that of all pixels, and of the latter times the
+  /// squared distance from the centre.
+  double energy = 0, light = 0, spread = 0;
+  /// How far noise, rounding and the roughness of the picture may move the three figures.
+  double energy_slack = 0, width_slack = 0, shift_slack = 0;
+
+  double height() const { return peak - base; }
+};
+
+/// What may move the figures of a highlight although nothing differs.
+struct HighlightNoise {
+  const NoiseOfPair* known = nullptr;
+  double rounding = 0;  ///< ComparisonOptions::rounding
+};
+
+/// The ones with the most light first. Nothing outside of `where` is looked at, unless that is empty. Finite values.
+std::vector<LocalHighlight> find_highlights(const Image& reference,
+                                            std::span<const std::uint8_t> where = {},
+                                            const HighlightNoise& noise = {});
+
+}  // namespace lobelia

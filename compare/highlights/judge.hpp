@@ -1,0 +1,48 @@
+// The errors of each highlight of a reference in another picture.
+//
+// Source:       ours.
+// Formula:      with b the reference and a the judged picture, over the pixels that find.hpp says, which noise in a does not
+//               choose:
+//               base    of a: that of b, and the median of a - b over the ring. So a change of the surroundings is none of the
+//                       highlight.
+//               energy  sum of a - b over the core, each over its base, of the channel in which it is the largest, divided
+//                       by that of b; for a shallow highlight by 0.4 of its whole light.
+//               width   root of the ratio of second moments about b's centre, less 1, after a was scaled to the energy of
+//                       b over the base.
+//               shift   difference of first moments, likewise.
+//               All sums are linear in a, so noise in a moves them to neither side. The moments are over the level that
+//               bounds the pixels, which makes them exact for small changes. A highlight with less than a tenth of its
+//               light is gone: its energy says so, and width and shift are 0.
+// Beyond:       what exceeds the slack of the highlight (slack.hpp).
+#pragma once
+
+#include "compare/highlights/find.hpp"
+
+namespace lobelia {
+
+/// The errors that pass by default; they also weigh the three kinds to tell the worst.
+inline constexpr double kEnergyLimit = 0.03, kWidthLimit = 0.03, kShiftLimit = 0.25;
+
+struct LocalErrors {
+  double energy = 0, width = 0;     ///< a / b - 1
+  double shift_x = 0, shift_y = 0;  ///< pixels, to the right and down
+  bool gone = false;
+  double energy_beyond = 0, width_beyond = 0, shift_beyond = 0;  ///< sizes, less the slack
+
+  /// The largest of the three sizes beyond the slack, in units of the limits.
+  double badness() const;
+};
+
+/// `a` and `b` of the size of the reference that the highlight is of.
+LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight& highlight);
+
+struct JudgedHighlight {
+  const LocalHighlight* highlight = nullptr;
+  LocalErrors errors;
+};
+
+/// The worst first; equally bad ones in the order given.
+std::vector<JudgedHighlight> judge_highlights(const Image& a, const Image& b,
+                                              std::span<const LocalHighlight> highlights);
+
+}  // namespace lobelia

@@ -1,0 +1,303 @@
+// Each highlight is judged by itself: beside a light of any brightness a changed one is found, and nothing else is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "compare/compare.hpp"
+#include "compare/highlights/words.hpp"
+#include "compare/metrics/catalogue.hpp"
+#include "compare/sensitivity.hpp"
+#include "compare/set/report.hpp"
+#include "tests/compare/pictures.hpp"
+#include "tests/compare/spots.hpp"
+#include "tests/more_samples.hpp"
+
+namespace lobelia {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 160, kHeight = 120;
+
+/// A highlight on even light, and a light of 3 x 3 pixels.
+struct Beside {
+  Spot spot;
+  double base = 0, light = 0;
+  int light_x = 0, light_y = 0;
+
+  Image with(double kept = 1, double right = 0) const {
+    return picture(kWidth, kHeight, [&](double x, double y) {
+      const bool in_light = std::abs(x - light_x - 0.5) < 1.6 && std::abs(y - light_y - 0.5) < 1.6;
+      return in_light ? light : base + kept * spot(x - right, y);
+    });
+  }
+};
+
+/// Any place and shape. The light is in view anywhere, but not on the highlight.
+Beside random_case(std::mt19937& random, double light) {
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * double(random()) / 4294967296.0;
+  };
+  Beside made;
+  const double width = std::exp(between(std::log(1.5), std::log(20.0)));
+  const double margin = std::min(2.0 * width, 45.0);
+  made.spot = {between(margin, kWidth - margin),
+               between(margin, kHeight - margin),
+               between(0.05, 4),
+               width,
+               width * between(0.5, 1),
+               between(0, 3),
+               random() % 2 == 0};
+  made.base = random() % 2 == 0 ? 0 : made.spot.peak * between(0, 0.6);
+  made.light = light * made.spot.peak;
+  do {
+    made.light_x = 2 + int(random() % (kWidth - 4));
+    made.light_y = 2 + int(random() % (kHeight - 4));
+  } while (std::hypot(made.light_x - made.spot.x, made.light_y - made.spot.y) < 2.5 * width + 4);
+  return made;
+}
+
+/// The limits on each highlight alone.
+ComparisonOptions on_highlights() {
+  ComparisonOptions options;
+  options.highlight = true;
+  options.default_limits = false;
+  options.limits = {{"highlights.energy", kEnergyLimit},
+                    {"highlights.width", kWidthLimit},
+                    {"highlights.shift", kShiftLimit}};
+  options.metrics = {"highlights.energy"};
+  return options;
+}
+
+Comparison judged(const Image& a, const Image& b) { return compare(a, b, on_highlights()); }
+
+Image each(const Image& image, const std::function<double(double)>& change) {
+  Image result = image;
+  for (float& value : result.values()) value = float(change(double(value)));
+  return result;
+}
+
+/// The highlight's own line.
+const records::LocalHighlight* line_of(const Comparison& comparison, const Spot& spot) {
+  const auto found = std::ranges::find_if(comparison.highlights, [&](const auto& one) {
+    return std::hypot(one.x + 0.5 - spot.x, one.y + 0.5 - spot.y) < 2;
+  });
+  return found == comparison.highlights.end() ? nullptr : &*found;
+}
+
+TEST(HighlightsTable, HasNothingMissedBesideALightOfAnyBrightness) {
+  std::mt19937 random(56);
+  for (int round = 0; round < 24; ++round)
+    for (const double light : {5.0, 50.0, 500.0, 5000.0, 50000.0}) {
+      const Beside made = random_case(random, light);
+      const Image reference = made.with();
+      const auto say = [&](const char* change) {
+        return ::testing::Message()
+               << change << " beside a light of " << light << " times the peak at " << made.light_x
+               << ", " << made.light_y << ": " << made.spot.x << ", " << made.spot.y << ", peak "
+               << made.spot.peak << " over " << made.base << ", half-widths " << made.spot.major
+               << ", " << made.spot.minor << (made.spot.ggx ? ", GGX" : "");
+      };
+      for (const auto& [change, kept, right] : {std::tuple{"5 % dimmer", 0.95, 0.0},
+                                                {"30 % dimmer", 0.7, 0.0},
+                                                {"moved", 1.0, 4.0},
+                                                {"gone", 0.0, 0.0}})
+        EXPECT_EQ(judged(made.with(kept, right), reference).verdict, Verdict::kDiffers)
+            << say(change);
+      EXPECT_EQ(judged(reference, reference).verdict, Verdict::kPass) << say("equal");
+    }
+}
+
+TEST(HighlightsTable, SaysWhatWasChanged) {
+  std::mt19937 random(57);
+  int lines = 0;
+  for (int round = 0; round < 40; ++round) {
+    Beside made = random_case(random, 1000);
+    made.base = std::min(made.base, 0.3 * made.spot.peak);
+    const Image reference = made.with();
+    const Comparison dimmer = judged(made.with(0.8), reference),
+                     moved = judged(made.with(1, 0.5), reference);
+    Beside wide = made;
+    wide.spot.major *= 1.1;
+    wide.spot.minor *= 1.1;
+    const Comparison wider = judged(wide.with(), reference);
+    for (const auto* of : {&dimmer, &moved, &wider})
+      ASSERT_TRUE(line_of(*of, made.spot)) << made.spot.x << ", " << made.spot.y;
+    EXPECT_NEAR(line_of(dimmer, made.spot)->energy, -0.2, 0.03);
+    EXPECT_NEAR(line_of(dimmer, made.spot)->width, 0, 0.01);
+    if (made.spot.minor > 3 && made.base == 0) {
+      EXPECT_NEAR(line_of(moved, made.spot)->shift_x, 0.5, 0.1);
+      EXPECT_NEAR(line_of(wider, made.spot)->width, 0.1, 0.03);
+      ++lines;
+    }
+  }
+  EXPECT_GT(lines, 5);
+}
+
+TEST(HighlightsTable, NamesTheWorstFirst) {
+  const Spot left{30, 60, 1, 4, 4}, middle{80, 60, 0.5, 4, 4}, right{130, 60, 0.3, 4, 4};
+  const auto with = [&](double of_left, double of_middle, double of_right) {
+    return picture(kWidth, kHeight, [&](double x, double y) {
+      if (x < 3 && y < 3) return 9000.0;
+      return of_left * left(x, y) + of_middle * middle(x, y) + of_right * right(x, y);
+    });
+  };
+  const Comparison comparison = judged(with(0.9, 0, 0.7), with(1, 1, 1));
+  ASSERT_GE(comparison.highlights.size(), 3u);
+  EXPECT_EQ(comparison.value("highlights.count"), double(comparison.highlights.size()));
+  EXPECT_NEAR(comparison.highlights[0].x, 80, 1);
+  EXPECT_NEAR(comparison.highlights[1].x, 130, 1);
+  EXPECT_NEAR(comparison.highlights[2].x, 30, 1);
+  EXPECT_EQ(comparison.value("highlights.x"), comparison.highlights[0].x);
+  const auto sentences = sentences_on_highlights(comparison.highlights);
+  ASSERT_EQ(sentences.size(), 3u);
+  EXPECT_EQ(sentences[0], "the highlight at (79, 59) is gone");
+  EXPECT_EQ(sentences[1], "the highlight at (129, 59) has 30 % less light");
+  EXPECT_THAT(why_not_pass(comparison, "a", "b"), HasSubstr("the highlight at (79, 59) is gone"));
+}
+
+TEST(HighlightsTable, HasNoAlarmForAUniformFactorWithinTheLimits) {
+  std::mt19937 random(58);
+  for (int round = 0; round < 40; ++round) {
+    const Image reference = random_case(random, round % 2 == 0 ? 1000 : 3).with();
+    for (const double factor : {0.99, 1.01})
+      EXPECT_EQ(judged(each(reference, [&](double v) { return factor * v; }), reference).verdict,
+                Verdict::kPass);
+  }
+}
+
+/// Waves of several lengths, as of a texture, on a slope.
+Image texture(double phase) {
+  return picture(kWidth, kHeight, [&](double x, double y) {
+    return 0.3 + 0.002 * x + 0.2 * std::sin(0.9 * x + phase) * std::cos(1.1 * y) +
+           0.1 * std::sin(0.13 * x + 0.21 * y) + 0.05 * std::sin(2.3 * x * y / 97);
+  });
+}
+
+TEST(HighlightsTable, HasNoAlarmForTexturesAndSlopesThatHardlyDiffer) {
+  for (const Image& reference :
+       {texture(0), texture(1.2), picture(kWidth, kHeight, [](double x, double) { return x; }),
+        picture(kWidth, kHeight, [](double x, double y) { return x * y; }),
+        fixtures::flat(40, 30, 0.2f, 0.4f, 0.1f), fixtures::flat(40, 30, 0, 0, 0)}) {
+    ComparisonOptions options = on_highlights();
+    options.limits.clear();
+    options.default_limits = true;
+    for (const double factor : {0.99, 1, 1.01})
+      for (const LimitResult& limit :
+           compare(each(reference, [&](double v) { return factor * v; }), reference, options)
+               .limits)
+        EXPECT_TRUE(limit.pass || !limit.metric.starts_with("highlights."))
+            << limit.metric << ' ' << limit.value << ", factor " << factor;
+  }
+}
+
+TEST(HighlightsTable, HasNoAlarmForNoiseThatNobodyTold) {
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    const Beside made{{80, 60, 1, 9, 7}, seed % 2 == 0 ? 0.0 : 0.2, 800, 12, 12};
+    const Image clean = made.with();
+    const auto noisy = [&](std::uint64_t of) {
+      Image image = clean;
+      const Image noise = fixtures::noise(kWidth, kHeight, of, 1);
+      for (std::size_t i = 0; i < image.values().size(); ++i)
+        image.values()[i] = std::max(0.0f, image.values()[i] + 0.04f * (noise.values()[i] - 0.5f));
+      return image;
+    };
+    const Comparison comparison = judged(noisy(2 * seed), noisy(2 * seed + 1));
+    EXPECT_EQ(comparison.verdict, Verdict::kPass) << why_not_pass(comparison, "a", "b");
+    // The same noise hides no missing highlight.
+    Image gone = made.with(0);
+    EXPECT_EQ(judged(gone, noisy(2 * seed)).verdict, Verdict::kDiffers);
+  }
+}
+
+TEST(HighlightsTable, HasNoAlarmForRounding) {
+  std::mt19937 random(59);
+  for (int round = 0; round < 20; ++round) {
+    Beside made = random_case(random, 30000);
+    const Image reference = made.with();
+    const Image half = each(reference, [](double v) {
+      int exponent = 0;
+      const double fraction = std::frexp(v, &exponent);
+      return std::ldexp(std::nearbyint(2048 * fraction) / 2048, exponent);
+    });
+    EXPECT_EQ(judged(half, reference).verdict, Verdict::kPass);
+  }
+}
+
+TEST(HighlightsTable, BoundsItsWorkAndItsCount) {
+  const Image noise = fixtures::noise(700, 500, 3, 1);
+  EXPECT_LE(find_highlights(noise).size(), kMostHighlights);
+  const Image many = picture(700, 500, [](double x, double y) {
+    const double dx = std::fmod(x, 10) - 5, dy = std::fmod(y, 10) - 5;
+    return std::exp2(-(dx * dx + dy * dy) / 4);
+  });
+  EXPECT_EQ(find_highlights(many).size(), kMostHighlights);
+  // 2000 x 1500 pixels are reduced to squares of 2 x 2, and what was reduced is still judged by its pixels.
+  const Spot spot{1200.3, 700.6, 1, 9, 9};
+  const Image large =
+      picture(2000, 1500, [&](double x, double y) { return x < 4 && y < 4 ? 5000 : spot(x, y); });
+  Image dimmer = large;
+  for (float& value : dimmer.values()) value *= value < 100 ? 0.9f : 1;
+  const Comparison comparison = judged(dimmer, large);
+  const auto* line = line_of(comparison, spot);
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->energy, -0.1, 1e-3);
+  EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
+}
+
+TEST(HighlightsTable, LooksOnlyWhereAHighlightMayLie) {
+  const Beside made{{80, 60, 1, 9, 7}, 0, 800, 12, 12};
+  PixelFlags where(std::size_t(kWidth * kHeight));
+  for (int y = 30; y < 90; ++y)
+    for (int x = 40; x < 120; ++x) where[std::size_t(y * kWidth + x)] = 1;
+  const auto found = find_highlights(made.with(), where);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].x, 79);
+  EXPECT_EQ(found[0].y, 59);
+}
+
+TEST(AutomaticExposure, ShowsEachHighlightOfThePicture) {
+  for (const double light : {5.0, 500.0, 5e4, 1e6}) {
+    const Beside made{{80, 60, 1.5, 9, 7}, 0, light, 12, 12};
+    ComparisonOptions options = usual_options();
+    options.metrics = {"ciede2000.max"};
+    const Viewing viewing = compare(made.with(), made.with(), options).viewing;
+    std::vector<double> all = viewing.further_stops;
+    all.push_back(viewing.exposure_stops);
+    all.push_back(*viewing.tail_stops);
+    const bool shown = std::ranges::any_of(all, [](double stops) {
+      const double value = 1.5 * std::exp2(stops);
+      return value > 1.0 / 65 && value < 1.01;
+    });
+    EXPECT_TRUE(shown) << light;
+    EXPECT_EQ(viewing.further_stops.empty(), light < 5000) << light;
+    // Nothing is left out that was seen before.
+    EXPECT_NEAR(viewing.exposure_stops, -std::log2(light), 1e-6);
+  }
+}
+
+TEST(Sensitivity, ChangesEachHighlightInTurn) {
+  const Beside made{{80, 60, 1, 5, 5}, 0.1, 800, 12, 12};
+  ComparisonOptions options = usual_options();
+  const auto changes = sensitivity(made.with(), options);
+  for (const char* how : {"gone", "5 % dimmer", "30 % dimmer", "moved 4 pixels"}) {
+    const std::string name = std::string("the highlight at (79, 59) ") + how;
+    const auto change = std::ranges::find(changes, name, &Change::name);
+    ASSERT_NE(change, changes.end()) << name;
+    EXPECT_EQ(change->expected, Expected::kFound) << name;
+    EXPECT_TRUE(change->is_found()) << name;
+    EXPECT_THAT(change->found_by, HasSubstr("highlights."));
+  }
+  options.default_limits = false;
+  options.limits = {{"max_rel_peak", 0.01}};
+  const auto blind = sensitivity(made.with(), options);
+  const auto missed = std::ranges::find(blind, "the highlight at (79, 59) gone", &Change::name);
+  ASSERT_NE(missed, blind.end());
+  EXPECT_FALSE(missed->is_as_expected()) << "and the command says NOT FOUND";
+}
+
+}  // namespace
+}  // namespace lobelia
