@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/colour.hpp"
 #include "core/image_values.hpp"
 #include "core/numbers.hpp"
 #include "core/scratch_memory.hpp"
@@ -67,11 +68,6 @@ std::optional<Fault> clipping_of(const Image& faulty, const Image& other) {
   fault.value = level;
   fault.other = beyond.most;
   return fault;
-}
-
-double srgb_encoded(double light) {
-  // IEC 61966-2-1, and on above 1.
-  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 
 std::optional<Fault> encoding_of(const Image& faulty, const Image& other) {

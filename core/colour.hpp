@@ -17,6 +17,8 @@ DisplayImage to_display(std::span<const float> rows, int width, double exposure_
 
 /// An sRGB-encoded value (IEC 61966-2-1) as linear light.
 float srgb_decoded(float value);
+/// Linear light as sRGB encodes it, and on above 1.
+double srgb_encoded(double light);
 
 /// The exposure, in stops, that brings `peak` to display white; 0 if peak is not a positive number.
 double exposure_for_peak(double peak);

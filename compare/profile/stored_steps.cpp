@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/colour.hpp"
 #include "core/half.hpp"
 
 namespace lobelia {
 namespace {
 
-double srgb_encoded(double value) {
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-}
 /// The derivative of the encoding's inverse, at a linear value.
 double srgb_slope(double value) {
   const double encoded = srgb_encoded(value);
