@@ -7,8 +7,9 @@
 #include "cli/options.hpp"
 #include "cli/replaced_references.hpp"
 #include "compare/highlight_region.hpp"
+#include "compare/layer_sensitivity.hpp"
+#include "compare/layer_types.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/sensitivity.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/scratch_memory.hpp"
@@ -44,19 +45,21 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   require_outputs(options, of_one);
   FilesTogether files;
   std::vector<Change> changes;
+  LayerType type = LayerType::kColour;
   ThreadLimit(options.choice.threads).run([&] {
     PicturePair pictures{read_picture(picture, job.layers.layer.a), {}};
     pictures.b = pictures.a;
     ComparisonOptions comparison = job.comparison;
     job.parts.apply(pictures.a.image.width(), pictures.a.image.height(), comparison);
     take_part(pictures, picture, picture, comparison);
-    changes = sensitivity(pictures.b.image, comparison);
+    type = type_of_layers(pictures.b.source, pictures.b.source, comparison);
+    changes = layer_sensitivity(pictures.b, picture, comparison);
   });
   const bool as_expected = are_as_expected(changes);
   const ExitCode code = as_expected ? ExitCode::kSuccess : ExitCode::kDiffers;
   if (!options.json.empty()) {
     const std::string record =
-        record_text(sensitivity_record(picture, changes, options.job.comparison));
+        record_text(sensitivity_record(picture, changes, options.job.comparison, type));
     if (has_table) write_file(options.json, record);
     files.commit();
     if (!has_table) fmt::print("{}", record);

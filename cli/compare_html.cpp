@@ -228,7 +228,9 @@ class ReportWriter {
     checked.entry.a = set_name(pair.set);
     checked.entry.b = set_name(kReferenceSet);
     const double largest = comparison.value("max_abs");
-    checked.entry.difference = {largest > 0 ? largest : 1, comparison.value("max_rel_peak")};
+    const double of_peak = comparison.value("max_rel_peak");
+    // Identifiers have neither.
+    checked.entry.difference = {largest > 0 ? largest : 1, std::isnan(of_peak) ? 0 : of_peak};
     checked.png.file = fmt::format("{}-{}.png", checked.entry.a, checked.entry.b);
     made.shown[checked.png.file] =
         difference_picture(read.a.image, read.b.image, checked.entry.difference.white_at);
@@ -241,7 +243,7 @@ class ReportWriter {
               ? fmt::format("of {} acceptable references, this is the one that it fits best",
                             pair.references.size())
               : "",
-          printable_path(known_text(pair))})
+          printable_path(known_text(pair)), comparison.finding, why_layers_differ(pair)})
       if (!more.empty()) checked.sentence += (checked.sentence.empty() ? "" : "; ") + more;
     made.cell.comparisons.push_back(std::move(checked));
   }

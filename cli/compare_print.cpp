@@ -33,6 +33,7 @@ std::string layer_reasons(const LayerComparison& layer, const std::string& a,
   for (const LimitResult& limit : comparison.limits)
     text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", limit.metric, limit.value,
                         limit.pass ? "" : fmt::format(" (limit {:g})", limit.limit));
+  if (!comparison.finding.empty()) text += "; " + comparison.finding;
   return text;
 }
 
@@ -202,6 +203,9 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
     fmt::print("  in {} pixels both have the same NaN or infinity, which counts as no difference\n",
                *comparison.nonfinite.equal_allowed);
   print_parts(comparison);
+  if (comparison.type != LayerType::kColour)
+    fmt::print("  compared as layers of type {}\n\n", layer_type_name(comparison.type));
+  if (!comparison.finding.empty()) fmt::print("  {}\n\n", comparison.finding);
   if (const std::string sentence = highlight_sentence(comparison); !sentence.empty())
     fmt::print("  {}\n\n", sentence);
   print_exposures(comparison.viewing);

@@ -378,7 +378,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
                             highlight,
                             highlights,
                             further_as_shown(a, b, viewing),
-                            have_equal_values(a, b)};
+                            have_equal_values(a, b),
+                            options.layer};
     result.metrics = measure_all(list, input);
     result.not_measured = all_not_measured(list, input);
     if (options.noise) {

@@ -20,6 +20,12 @@ struct NoiseOptions {
   std::uint64_t seed = 0;  ///< of their noise
 };
 
+/// What a user says that a layer is; `layer` as is_layer_called() has it.
+struct LayerTypeChoice {
+  std::string layer;
+  LayerType type = LayerType::kColour;
+};
+
 struct ComparisonOptions {
   Viewing viewing;
   /// The default limits are judged too, each unless `limits` has one on its metric; with a tolerance without the one on
@@ -50,6 +56,9 @@ struct ComparisonOptions {
   /// A NaN or an infinity that both pictures have in the same place is no difference; see compare_pictures().
   bool allow_equal_nonfinite = false;
   std::optional<NoiseOptions> noise = {};  ///< if set, the verdict is same, different or undecided
+  std::vector<LayerTypeChoice> layer_types = {};  ///< of layers of files; see compare_pictures()
+  /// What is known of layers that are no colours, for their metrics; null for colours.
+  const LayerInput* layer = nullptr;
 };
 
 /// What is compared where a user chooses nothing: the default limits, the highlight's too, at an exposure that suits the
@@ -95,6 +104,8 @@ using ReferenceFloor = records::ReferenceFloor;
 
 struct Comparison {
   Verdict verdict = Verdict::kDiffers;
+  LayerType type = LayerType::kColour;  ///< what was compared
+  std::string finding;  ///< of identifiers that differ: which is most often where another should be
   records::Nonfinite nonfinite;
   Viewing viewing;
   records::Named<double> metrics;  ///< in the catalogue's order; empty if a value is not finite

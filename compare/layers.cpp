@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "compare/cryptomatte.hpp"
+#include "compare/layer_types.hpp"
 #include "compare/mask.hpp"
 #include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
@@ -43,18 +45,27 @@ bool are_identical(const Image& a, const Image& b) {
   return have_equal_values(a, b) && is_finite(a);
 }
 
-/// Compares the layer and its overscan, if there is one.
+/// Replaces a file's values by those that it stores. An array has no file.
+void read_again_as_stored(PicturePair& pair, const std::string& file_a, const std::string& file_b) {
+  for (const auto& [picture, file] : {std::pair(&pair.a, &file_a), {&pair.b, &file_b}})
+    if (picture->source.format.empty()) return;
+  for (const auto& [picture, file] : {std::pair(&pair.a, &file_a), {&pair.b, &file_b}})
+    if (!picture->source.as_stored) *picture = read_stored_picture(*file, picture->source.layer);
+}
+
+/// Compares a layer that is no Cryptomatte, and its overscan if there is one.
 std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
-                                           const std::string& name,
+                                           const std::string& name, PicturePair pair,
                                            const ComparisonOptions& options) {
-  PicturePair pair = read_pair(a, b, {name, name});
   LayerComparison layer{name, pair.a.source, pair.b.source};
+  layer.type = type_of_layers(layer.a, layer.b, options);
   const PixelWindow &size_a = layer.a.display, &size_b = layer.b.display;
   if (size_a.width != size_b.width || size_a.height != size_b.height) {
     layer.problem = fmt::format("the sizes differ: {} x {} against {} x {}", size_a.width,
                                 size_a.height, size_b.width, size_b.height);
     return {layer};
   }
+  if (layer.type == LayerType::kIdentifier) read_again_as_stored(pair, a.string(), b.string());
   take_part(pair, a.string(), b.string(), options);
   layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
   std::vector<LayerComparison> results{std::move(layer)};
@@ -88,6 +99,7 @@ std::optional<LayerComparison> find_lost_alpha(const fs::path& a, const fs::path
   }
   if (pixels == 0) return std::nullopt;
   LayerComparison layer{name, has_a ? pair.a.source : source_a, has_a ? source_b : pair.a.source};
+  layer.type = LayerType::kAlpha;
   layer.problem =
       fmt::format("only {} has this alpha, and {} pixels of it are not 1, the least {:.3g}",
                   has_a ? 'a' : 'b', pixels, least);
@@ -105,6 +117,28 @@ Names layer_and_alpha(const PictureSource& source) {
   Names names{source.layer};
   if (!source.alpha.empty()) names.insert(source.alpha);
   return names;
+}
+
+/// Throws Error(kInput) where a type was given for a layer that neither file has.
+void require_layers_of_types(const PictureSource& a, const PictureSource& b,
+                             const ComparisonOptions& options) {
+  for (const LayerTypeChoice& choice : options.layer_types) {
+    const auto is_it = [&](const PictureSource& source) {
+      if (is_layer_called(source, choice.layer)) return true;
+      PictureSource other;
+      other.cryptomattes = source.cryptomattes;
+      return std::ranges::any_of(source.layers, [&](const std::string& layer) {
+        other.layer = layer;
+        return is_layer_called(other, choice.layer);
+      });
+    };
+    if (is_it(a) || is_it(b)) continue;
+    std::vector<std::string_view> names(b.layers.begin(), b.layers.end());
+    std::erase(names, "");
+    throw Error(ExitCode::kInput,
+                fmt::format("--layer-type: no layer '{}'{}", printable(choice.layer),
+                            printable(did_you_mean(choice.layer, names))));
+  }
 }
 
 /// Layers of both files without the compared ones; a name once.
@@ -127,8 +161,11 @@ Verdict LayerComparison::verdict() const {
 }
 
 std::string LayerComparison::title() const {
-  if (name.empty()) return overscan ? "overscan of the picture" : "layer of the picture";
-  return (overscan ? "overscan of layer " : "layer ") + printable(name);
+  std::string title = overscan ? "overscan of " : "";
+  title += name.empty() ? (overscan ? "the picture" : "layer of the picture")
+                        : "layer " + printable(name);
+  if (type != LayerType::kColour) title += fmt::format(" ({})", layer_type_name(type));
+  return title;
 }
 
 LayerNames parse_layer_names(const std::string& text) {
@@ -204,15 +241,25 @@ double rounding_of(const PictureSource& source, double value) {
 Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,
                             const ComparisonOptions& options) {
   require_same_size(pair.a.image, pair.b.image, file_a, file_b);
-  std::optional<std::int64_t> equal;
-  if (allows_equal_nonfinite(options, pair.b.source))
-    equal = clear_equal_nonfinite(pair.a.image, pair.b.image);
+  const PictureSource &source_a = pair.a.source, &source_b = pair.b.source;
+  const LayerType type = type_of_layers(source_a, source_b, options);
+  if (const auto rank = cryptomatte_of(source_a, source_b, options))
+    return compare_cryptomattes(read_cryptomatte(file_a, source_a, *rank, options),
+                                read_cryptomatte(file_b, source_b, *rank, options), options);
+  const bool is_stored = source_a.as_stored && source_b.as_stored;
+  if (type == LayerType::kIdentifier && !is_stored && !source_a.format.empty() &&
+      !source_b.format.empty()) {
+    PicturePair stored = pair;
+    read_again_as_stored(stored, file_a, file_b);
+    take_part(stored, file_a, file_b, options);
+    return compare_values(stored.a.image, stored.b.image, source_a, source_b, type, options);
+  }
   ComparisonOptions rounded = options;
   const double peak = peak_value(pair.b.image);
   for (const Picture* one : {&pair.a, &pair.b})
     rounded.rounding = std::max(rounded.rounding, rounding_of(one->source, peak));
-  Comparison comparison = compare(pair.a.image, pair.b.image, rounded);
-  comparison.nonfinite.equal_allowed = equal;
+  Comparison comparison =
+      compare_values(pair.a.image, pair.b.image, source_a, source_b, type, rounded);
   if (auto& first = comparison.nonfinite.first) {
     if (first->a) name_channel(*first->a, pair.a.source);
     if (first->b) name_channel(*first->b, pair.b.source);
@@ -221,14 +268,11 @@ Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const 
 }
 
 LayerComparison compare_alpha(const std::string& name, PicturePair pair, const std::string& file_a,
-                              const std::string& file_b, ComparisonOptions options) {
+                              const std::string& file_b, const ComparisonOptions& options) {
   LayerComparison layer{name, pair.a.source, pair.b.source};
+  layer.type = type_of_layers(layer.a, layer.b, options);
   take_part(pair, file_a, file_b, options);
   layer.identical = are_identical(pair.a.image, pair.b.image);
-  // Alpha is a share of the pixel, not light: exposure and display do not apply.
-  options.viewing.exposure_stops = 0;
-  options.viewing.automatic = false;
-  options.viewing.display = nullptr;
   if (!layer.identical) layer.comparison = compare_pictures(pair, file_a, file_b, options);
   return layer;
 }
@@ -248,41 +292,64 @@ CommonLayers common_layers(const fs::path& a, const fs::path& b) {
 OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePair& picture,
                            const LayerOptions& layers, const ComparisonOptions& options) {
   const PictureSource &source_a = picture.a.source, &source_b = picture.b.source;
+  require_layers_of_types(source_a, source_b, options);
   const bool alpha_in_a = !source_a.alpha.empty(), alpha_in_b = !source_b.alpha.empty();
+  const bool is_identifier = type_of_layers(source_a, source_b, options) == LayerType::kIdentifier;
   OtherLayers result;
   NotCompared& left = result.not_compared;
   left.mip_levels = std::max(source_a.mip_levels, source_b.mip_levels) - 1;
   const auto overscan = find_overscan(source_a, source_b);
-  if (options.noise || options.crop) {
+  const auto rank = cryptomatte_of(source_a, source_b, options);
+  if (options.noise || options.crop || rank) {
     left.overscan_pixels = overscan ? overscan->pixels : 0;
   } else if (overscan) {
-    result.compared.push_back(compare_overscan(source_a.layer, picture, *overscan, options));
+    PicturePair stored = picture;
+    if (is_identifier) read_again_as_stored(stored, a.string(), b.string());
+    result.compared.push_back(compare_overscan(source_a.layer, stored, *overscan, options));
   }
-  if (layers.ignore_alpha || (options.noise && alpha_in_a && alpha_in_b))
-    left.alpha = alpha_in_a || alpha_in_b;
-  else if (alpha_in_a && alpha_in_b)
-    result.compared.push_back(compare_alpha(
-        source_a.alpha, {read_picture(a, source_a.alpha), read_picture(b, source_b.alpha)},
-        a.string(), b.string(), options));
-  else if (auto lost = find_lost_alpha(a, b, source_a, source_b, options))
-    result.compared.push_back(std::move(*lost));
+  if (!is_identifier) {
+    if (layers.ignore_alpha || (options.noise && alpha_in_a && alpha_in_b))
+      left.alpha = alpha_in_a || alpha_in_b;
+    else if (alpha_in_a && alpha_in_b)
+      result.compared.push_back(compare_alpha(
+          source_a.alpha, {read_picture(a, source_a.alpha), read_picture(b, source_b.alpha)},
+          a.string(), b.string(), options));
+    else if (auto lost = find_lost_alpha(a, b, source_a, source_b, options))
+      result.compared.push_back(std::move(*lost));
+  }
 
   Names in_a = layer_and_alpha(source_a), in_b = layer_and_alpha(source_b);
+  const auto take_ranks = [&](const PicturePairSource& of, const CryptomatteRank& of_rank) {
+    for (const auto& [source, names] : {std::pair(&of.a, &in_a), {&of.b, &in_b}})
+      for (const std::string& name : cryptomatte_layers(*source, of_rank)) names->insert(name);
+  };
+  if (rank) take_ranks({source_a, source_b}, *rank);
   if (layers.all) {
     CommonLayers& common = result.common.emplace(common_layers(a, b));
-    take_out_alpha(source_a, source_b, common);
+    if (!is_identifier) take_out_alpha(source_a, source_b, common);
     for (const std::string& name : common.both) {
       if (in_a.contains(name) || in_b.contains(name)) continue;
-      std::vector<LayerComparison> made = compare_layer(a, b, name, options);
-      const PictureSource layer_a = made.front().a, layer_b = made.front().b;
+      PicturePair pair = read_pair(a, b, {name, name});
+      const PicturePairSource of{pair.a.source, pair.b.source};
+      left.mip_levels = std::max({left.mip_levels, of.a.mip_levels - 1, of.b.mip_levels - 1});
+      if (const auto of_rank = cryptomatte_of(of.a, of.b, options)) {
+        LayerComparison layer{of_rank->name, of.a, of.b};
+        layer.type = LayerType::kIdentifier;
+        layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
+        result.compared.push_back(std::move(layer));
+        take_ranks(of, *of_rank);
+        continue;
+      }
+      std::vector<LayerComparison> made = compare_layer(a, b, name, std::move(pair), options);
+      const bool has_alpha = made.front().type != LayerType::kIdentifier;
       const bool is_comparable = made.front().problem.empty();
-      left.mip_levels = std::max({left.mip_levels, layer_a.mip_levels - 1, layer_b.mip_levels - 1});
       std::ranges::move(made, std::back_inserter(result.compared));
-      if (auto lost = is_comparable ? find_lost_alpha(a, b, layer_a, layer_b, options)
+      if (!has_alpha) continue;
+      if (auto lost = is_comparable ? find_lost_alpha(a, b, of.a, of.b, options)
                                     : std::optional<LayerComparison>())
         result.compared.push_back(std::move(*lost));
-      if (layer_a.alpha.empty() != layer_b.alpha.empty()) take_out_alpha(layer_a, layer_b, common);
-      in_a.insert(layer_a.alpha);
+      if (of.a.alpha.empty() != of.b.alpha.empty()) take_out_alpha(of.a, of.b, common);
+      in_a.insert(of.a.alpha);
     }
     in_a.insert(common.both.begin(), common.both.end());
     in_b.insert(source_b.layers.begin(), source_b.layers.end());

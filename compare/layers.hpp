@@ -39,8 +39,10 @@ bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSourc
 /// The largest rounding error of a stored integer as bright as `value`, in radiance; 0 for floats.
 double rounding_of(const PictureSource& source, double value);
 
-/// compare() for pictures read from files, which messages name. If allows_equal_nonfinite(), sets non-finite values
-/// that both share to 0 in `pair`. Throws Error(kInput) if the sizes differ, and the errors of compare().
+/// compare() for pictures read from files, which messages name, by the type of their layer (compare/layer_types.hpp).
+/// Identifiers are read again, as the files store them; of a Cryptomatte all ranks are. Values that are background in depth,
+/// and where allows_equal_nonfinite() those that are not finite in both, become 0 in `pair`. Throws Error(kInput) if the sizes
+/// differ, and the errors of read_picture() and compare().
 Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,
                             const ComparisonOptions& options);
 
@@ -60,9 +62,10 @@ struct LayerComparison {
   bool identical = false;    ///< and finite; not measured
   /// If set, all data on this window are compared. (0, 0) is the display window's first pixel.
   std::optional<PixelWindow> overscan = {};
+  LayerType type = LayerType::kColour;
 
   Verdict verdict() const;
-  std::string title() const;  ///< "layer Z", "overscan of the picture"
+  std::string title() const;  ///< "layer Z (depth)", "overscan of the picture"
 };
 
 /// The layers of two files. The pictures themselves ("") count as a layer.
@@ -86,15 +89,16 @@ struct OtherLayers {
 
 /// Compares the alpha of two pictures, which messages name, at exposure 0 on a plain display. Throws as compare_pictures().
 LayerComparison compare_alpha(const std::string& name, PicturePair pair, const std::string& file_a,
-                              const std::string& file_b, ComparisonOptions options);
+                              const std::string& file_b, const ComparisonOptions& options);
 
 /// Throws Error(kInput) if the files share no layer; otherwise errors as layer_names().
 CommonLayers common_layers(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Compares everything but the display window of `picture`: all data outside it, its alpha, and if requested all other
-/// layers. Alpha is judged at exposure 0 on a plain display. An alpha that one side alone has differs unless it is 1
+/// layers. The layers of a Cryptomatte are one. An alpha that one side alone has differs unless it is 1
 /// everywhere, which equals none. If noise is known nothing else is compared, for it is the noise of the picture only. Only
-/// one pair is in memory at a time. Errors as read_picture() and compare().
+/// one pair is in memory at a time. Throws Error(kInput) for a type of a layer that neither file has; other errors as
+/// read_picture() and compare().
 OtherLayers compare_others(const std::filesystem::path& a, const std::filesystem::path& b,
                            const PicturePair& picture, const LayerOptions& layers,
                            const ComparisonOptions& options);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/layer_types.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -106,20 +108,20 @@ LayerComparison compare_overscan(const std::string& layer, const PicturePair& pa
   const PixelWindow& window = overscan.window;
   LayerComparison result{layer, pair.a.source, pair.b.source};
   result.overscan = window;
+  result.type = type_of_layers(pair.a.source, pair.b.source, options);
   result.problem = window_problem("the window of all data", window);
   if (!result.problem.empty()) return result;
   Image a = all_data(pair.a, window), b = all_data(pair.b, window);
   ComparisonOptions on_all = on_window(options, at_origin(pair.a.source.display), window);
   take_part(a, b, on_all);
   const Unshared outside = compare_outside(a, b, pair, window);
-  if (allows_equal_nonfinite(options, pair.b.source)) clear_equal_nonfinite(a, b);
   if (outside.only_a + outside.only_b > 0)
     result.problem = fmt::format("pixels that are not 0 where the other has none: {} of a, {} of b",
                                  outside.only_a, outside.only_b);
-  else if (outside.identical)
+  else if (outside.identical && result.type != LayerType::kIdentifier)  // of which -0 is no 0
     result.identical = true;
   else
-    result.comparison = compare(a, b, on_all);
+    result.comparison = compare_values(a, b, pair.a.source, pair.b.source, result.type, on_all);
   return result;
 }
 

@@ -50,6 +50,7 @@ records::PictureRead picture_record(const PictureSource& source) {
 records::LayerComparison layer_record(const LayerComparison& layer) {
   records::LayerComparison record;
   record.layer = layer.name;
+  record.type = layer_type_name(layer.type);
   record.verdict = verdict_name(layer.verdict());
   if (layer.overscan) record.overscan = window_record(*layer.overscan);
   if (layer.identical) record.identical = true;
@@ -61,6 +62,7 @@ records::LayerComparison layer_record(const LayerComparison& layer) {
     record.limits = std::move(whole.limits);
     record.disagreement = std::move(whole.disagreement);
     record.not_measured = std::move(whole.not_measured);
+    record.finding = std::move(whole.finding);
   }
   record.pictures = pictures_record(layer.a, layer.b);
   return record;
@@ -74,6 +76,8 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.verdict = verdict_name(comparison.verdict);
   record.a = a;
   record.b = b;
+  if (comparison.type != LayerType::kColour) record.type = layer_type_name(comparison.type);
+  record.finding = comparison.finding;
   record.nonfinite = comparison.nonfinite;
   record.viewing = viewing_record(comparison.viewing, !comparison.metrics.empty());
   if (comparison.mask_pixels)

@@ -121,14 +121,6 @@ Image with_highlight(const Image& image, const LocalHighlight& highlight, double
   return result;
 }
 
-double as_half(double value) {
-  constexpr double kSteps = 2048, kLeastNormal = 0x1p-14;
-  if (std::abs(value) < kLeastNormal) return std::nearbyint(value * 0x1p24) * 0x1p-24;
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  return std::ldexp(std::nearbyint(fraction * kSteps) / kSteps, exponent);
-}
-
 Image as_8_bits(const Image& image) {
   const DisplayImage display = to_display(image, 0);
   Image result(image.width(), image.height());
@@ -149,6 +141,22 @@ Image with_noise(const Image& image, std::uint64_t stream) {
 
 }  // namespace
 
+double as_half(double value) {
+  constexpr double kSteps = 2048, kLeastNormal = 0x1p-14;
+  if (std::abs(value) < kLeastNormal) return std::nearbyint(value * 0x1p24) * 0x1p-24;
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  return std::ldexp(std::nearbyint(fraction * kSteps) / kSteps, exponent);
+}
+
+Change change_of(std::string name, Expected expected, const Comparison& comparison) {
+  Change change{std::move(name), expected, comparison.verdict, {}};
+  for (const LimitResult& limit : comparison.limits)
+    if (!limit.pass && limit.standing != Standing::kOpen)
+      change.found_by += (change.found_by.empty() ? "" : ", ") + limit.metric;
+  return change;
+}
+
 std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions& options) {
   const double peak = peak_value(reference);
   if (!is_finite(reference) || !(peak > 0))
@@ -157,12 +165,7 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
   std::vector<Change> changes;
   const auto add_pair = [&](std::string name, Expected expected, const Image& a, const Image& b,
                             const ComparisonOptions& how) {
-    const Comparison comparison = compare(a, b, how);
-    Change& change =
-        changes.emplace_back(Change{std::move(name), expected, comparison.verdict, {}});
-    for (const LimitResult& limit : comparison.limits)
-      if (!limit.pass && limit.standing != Standing::kOpen)
-        change.found_by += (change.found_by.empty() ? "" : ", ") + limit.metric;
+    changes.push_back(change_of(std::move(name), expected, compare(a, b, how)));
   };
   const auto add = [&](std::string name, Expected expected, const Image& changed) {
     add_pair(std::move(name), expected, changed, reference, options);
@@ -224,8 +227,12 @@ bool are_as_expected(std::span<const Change> changes) {
 }
 
 records::Sensitivity sensitivity_record(const std::string& a, std::span<const Change> changes,
-                                        const ComparisonOptions& options) {
-  records::Sensitivity record{a, are_as_expected(changes), options.default_limits, {}, {}};
+                                        const ComparisonOptions& options, LayerType type) {
+  records::Sensitivity record;
+  record.a = a;
+  if (type != LayerType::kColour) record.type = layer_type_name(type);
+  record.as_expected = are_as_expected(changes);
+  record.default_limits = options.default_limits;
   for (const auto& [metric, limit] : options.limits) record.limits.push_back({metric, limit});
   for (const Change& change : changes)
     record.changes.push_back({change.name,

@@ -25,6 +25,12 @@ struct Change {
   }
 };
 
+/// What became of a changed copy by its comparison.
+Change change_of(std::string name, Expected expected, const Comparison& comparison);
+
+/// The value that a half float would hold, of those that it can.
+double as_half(double value);
+
 /// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without its
 /// brightest highlight, with each of the eight largest highlights gone, dimmer and moved in turn, and copies that only round or
 /// have known noise. `options` without noise and without tolerance for
@@ -34,8 +40,8 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
 /// Whether every change is as expected.
 bool are_as_expected(std::span<const Change> changes);
 
-/// `a` is the file of the picture.
+/// `a` is the file of the picture, and `type` that of its layer.
 records::Sensitivity sensitivity_record(const std::string& a, std::span<const Change> changes,
-                                        const ComparisonOptions& options);
+                                        const ComparisonOptions& options, LayerType type);
 
 }  // namespace lobelia

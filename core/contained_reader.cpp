@@ -263,14 +263,17 @@ std::string decoder_problem(const ReaderVerdict& verdict) {
   return "";
 }
 
-Outcome ask(const PictureFile& file, const std::string& layer, bool names_only,
+enum class Asked : std::uint8_t { kPicture, kStoredPicture, kNames };
+
+Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
             const PictureLimit& limit) {
   static Pool pool;
   throw_if_interrupted();
   const fs::path& path = file.path();
-  ReadingRequest request{.names_only = names_only,
+  ReadingRequest request{.names_only = asked == Asked::kNames,
                          .on_one_thread = g_on_one_thread || usual_threads() == 1,
                          .base_only = g_base_only,
+                         .as_stored = asked == Asked::kStoredPicture,
                          .format = {},
                          .path = path.string(),
                          .layer = layer,
@@ -332,11 +335,15 @@ Picture read_picture(const fs::path& path, const std::string& layer, const Pictu
 }
 
 Picture read_picture(const PictureFile& file, const std::string& layer, const PictureLimit& limit) {
-  return ask(file, layer, false, limit).picture;
+  return ask(file, layer, Asked::kPicture, limit).picture;
+}
+
+Picture read_stored_picture(const fs::path& path, const std::string& layer) {
+  return ask(PictureFile(path), layer, Asked::kStoredPicture, {}).picture;
 }
 
 std::vector<std::string> layer_names(const fs::path& path) {
-  return ask(PictureFile(path), "", true, {}).names;
+  return ask(PictureFile(path), "", Asked::kNames, {}).names;
 }
 
 void decode_contained_on_one_thread() { g_on_one_thread = true; }

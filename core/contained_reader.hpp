@@ -33,6 +33,10 @@ class PictureFile;
 Picture read_picture(const PictureFile& file, const std::string& layer,
                      const PictureLimit& limit = {});
 
+/// The same, but with the values that the file holds: no curve, profile, primaries, gain map or alpha is applied. A float keeps
+/// its bits. An integer of 32 bits becomes the float of the same bits, so that no two of them are the same.
+Picture read_stored_picture(const std::filesystem::path& path, const std::string& layer);
+
 /// All layers of the file, first the picture ("") if it has one. Errors as read_picture().
 std::vector<std::string> layer_names(const std::filesystem::path& path);
 

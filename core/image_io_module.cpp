@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <map>
 #include <optional>
 
 #include "core/colour.hpp"
@@ -155,6 +157,7 @@ struct Reader {
   OIIO::ImageInput& input;
   int part;
   const OIIO::ImageSpec& spec;
+  bool as_stored = false;
   int first_row = 0, rows = spec.height;
 
   /// Channels [first, first + count) into every `stride`-th float of `values`.
@@ -167,15 +170,17 @@ struct Reader {
   }
 
  private:
-  /// Whether it holds IDs in an EXR, which OpenImageIO would divide by 4294967295.
+  /// Whether it holds IDs, which OpenImageIO would divide by 4294967295: always in an EXR.
   bool is_number(int channel) const {
-    return spec.channelformat(channel) == OIIO::TypeDesc::UINT32 &&
-           std::string_view(input.format_name()) == "openexr";
+    const OIIO::TypeDesc type = spec.channelformat(channel);
+    if (as_stored) return type == OIIO::TypeDesc::UINT32 || type == OIIO::TypeDesc::INT32;
+    return type == OIIO::TypeDesc::UINT32 && std::string_view(input.format_name()) == "openexr";
   }
   void read_numbers(int channel, float* values, std::size_t stride) const {
     std::vector<std::uint32_t> numbers(std::size_t(spec.width) * rows);
-    read_as(OIIO::TypeDesc::UINT32, channel, 1, numbers.data(), OIIO::AutoStride);
-    for (std::size_t i = 0; i < numbers.size(); ++i) values[i * stride] = float(numbers[i]);
+    read_as(spec.channelformat(channel), channel, 1, numbers.data(), OIIO::AutoStride);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      values[i * stride] = as_stored ? std::bit_cast<float>(numbers[i]) : float(numbers[i]);
   }
   void read_as(OIIO::TypeDesc type, int first, int count, void* values,
                OIIO::stride_t stride) const {
@@ -286,6 +291,33 @@ double samples_of(const OIIO::ImageSpec& spec, const std::string& channel) {
   return samples_stated(texts, channel);
 }
 
+/// The Cryptomattes that the parts announce, with their manifests where the values are wanted as they are stored: keys
+/// cryptomatte/ID/name and cryptomatte/ID/manifest.
+void find_cryptomattes(OIIO::ImageInput& input, std::size_t parts, PictureSource& source) {
+  constexpr std::string_view kBegin = "cryptomatte/", kName = "/name", kManifest = "/manifest";
+  constexpr std::size_t kMost = 64, kLongestName = 1024, kLongestManifest = 8 << 20;
+  std::map<std::string, std::array<std::string, 2>> found;  // by ID
+  for (std::size_t part = 0; part < parts; ++part)
+    for (const OIIO::ParamValue& attribute : input.spec(int(part)).extra_attribs) {
+      const std::string key = attribute.name().string();
+      const bool is_name = key.ends_with(kName);
+      const std::size_t id_end = key.rfind('/');
+      if (!key.starts_with(kBegin) || (!is_name && !key.ends_with(kManifest)) ||
+          id_end <= kBegin.size() || attribute.type() != OIIO::TypeDesc::STRING)
+        continue;
+      const std::string id = key.substr(kBegin.size(), id_end - kBegin.size());
+      std::string text = attribute.get_string();
+      if (found.size() == kMost && !found.contains(id)) continue;
+      if (text.size() <= (is_name ? kLongestName : kLongestManifest))
+        found[id][is_name ? 0 : 1] = std::move(text);
+    }
+  for (auto& [id, texts] : found) {
+    if (texts[0].empty() || std::ranges::count(source.cryptomattes, texts[0]) > 0) continue;
+    source.cryptomattes.push_back(texts[0]);
+    if (source.as_stored) source.manifests.push_back(std::move(texts[1]));
+  }
+}
+
 PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow display = display_window(spec, format);
   return {std::uint64_t(spec.width) * spec.height + std::uint64_t(display.width) * display.height,
@@ -392,18 +424,23 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   source.data = data_window(spec);
   source.display = display_window(spec, format);
 
+  source.as_stored = file.as_stored;
+  if (format == "openexr") find_cryptomattes(*input, parts.size(), source);
+
   ProfiledMeaning meaning;
-  if (layer.is_colour) meaning = {colour_meaning(file, spec, format, type)};
-  add_profile(file, spec, format, layer, source, meaning);
-  const Reader reader{path, *input, part, spec};
+  const bool is_decoded = layer.is_colour && !file.as_stored;
+  if (is_decoded) meaning = {colour_meaning(file, spec, format, type)};
+  if (is_decoded) add_profile(file, spec, format, layer, source, meaning);
+  const Reader reader{path, *input, part, spec, file.as_stored};
   if (file.on_rows && has_plain_rows(spec, source)) {
     read_in_bands(reader, layer, meaning, file, source);
     return picture;
   }
   picture.image = read_colours(reader, layer, meaning);
   to_light(path, meaning, picture);
-  if (format == "jpeg" && layer_name.empty()) add_gain(file, spec, meaning, picture);
-  source.multiplied_by_alpha = layer.is_colour && is_unassociated(spec, format);
+  if (format == "jpeg" && layer_name.empty() && !file.as_stored)
+    add_gain(file, spec, meaning, picture);
+  source.multiplied_by_alpha = is_decoded && is_unassociated(spec, format);
   if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
   place_on_display(picture);
   if (picture.overscan.pixel_count() == 0) undo_orientation(file, layer.part, picture);

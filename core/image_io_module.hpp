@@ -24,6 +24,7 @@ struct PictureBytes {
   std::filesystem::path reopen = {};
   bool base_only = false;                                   ///< leaves out a gain map
   bool on_one_thread = false;                               ///< the calling one
+  bool as_stored = false;                                   ///< see read_stored_picture()
   std::function<void(const PictureClaim&)> on_header = {};  ///< may throw
   /// If set, a picture that can be decoded in bands of rows goes there instead, from the top: the band as a picture with the
   /// source of all, and its first row.

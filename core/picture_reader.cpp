@@ -161,7 +161,8 @@ ReadingAnswer decode(const ImageIoTable* table, const Job& job, std::string_view
                     .format = request.format,
                     .base_only = request.base_only,
                     .on_one_thread = request.on_one_thread || bytes.size() < kManyThreadsBytes ||
-                                     !can_start_threads()};
+                                     !can_start_threads(),
+                    .as_stored = request.as_stored};
   if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
   if (!may_leave_memory_uninitialised(request.format))
     file.on_rows = [&](const Picture& band, int) {

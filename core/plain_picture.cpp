@@ -40,8 +40,10 @@ std::optional<Picture> read_plain_picture(const PictureBytes& file, const std::s
   source.value_type = plain->value_type;
   source.samples = samples_stated(plain->attributes, source.channels[0]);
   source.data = source.display = plain->window;
-  source.multiplied_by_alpha = layer.is_colour && plain->is_unassociated;
-  const ColourMeaning meaning = layer.is_colour ? plain->meaning(file.path) : ColourMeaning();
+  source.as_stored = file.as_stored;
+  const bool is_decoded = layer.is_colour && !file.as_stored;
+  source.multiplied_by_alpha = is_decoded && plain->is_unassociated;
+  const ColourMeaning meaning = is_decoded ? plain->meaning(file.path) : ColourMeaning();
 
   const bool in_bands = file.on_rows && plain->band_rows > 0;
   const int rows = in_bands ? rows_of_band(width, plain->band_rows) : height;

@@ -1,5 +1,7 @@
 #include "records/comparison.hpp"
 
+#include "core/layer_type.hpp"
+
 namespace lobelia::records {
 namespace {
 
@@ -159,7 +161,10 @@ void define_comparison_tables(Tables& tables) {
     t.key("nonfinite").unit("pixels").at_least(0);
     t.key("metrics", "of c against b").may_be_nonfinite();
   });
+  constexpr std::string_view kFinding =
+      "of identifiers that differ: which one is most often where another should be";
   tables.define<LayerComparison>("The comparison of another layer of both files.", [](auto& t) {
+    t.key("type", "what its values are").one_of(kLayerTypes).if_any();
     t.key("verdict").one_of(kVerdicts);
     t.key("overscan",
           "this is the comparison of all data on this window, seen from the display window's "
@@ -167,11 +172,12 @@ void define_comparison_tables(Tables& tables) {
     t.key("identical", "every value is the same, and nothing was measured");
     t.key("problem",
           "in place of what is measured: their sizes differ, or one alone has data outside of "
-          "the display window")
+          "the display window, or an alpha")
         .not_empty()
         .if_any();
     t.key("metrics").may_be_nonfinite();
     t.key("notMeasured").if_any();
+    t.key("finding", kFinding).if_any();
     t.needs({{"nonfinite", "metrics", "limits"}, {"identical"}, {"problem"}});
   });
   tables.define<NotCompared>("What the verdict does not depend on.", [](auto& t) {
@@ -200,6 +206,10 @@ void define_comparison_tables(Tables& tables) {
         .one_of(kVerdicts);
     t.key("a", "file of the picture that was judged");
     t.key("b", "file of the reference");
+    t.key("type", "what the values of the compared layer are; missing for colour")
+        .one_of(kLayerTypes)
+        .if_any();
+    t.key("finding", kFinding).if_any();
     t.key("mask", "the part in which metrics were measured again");
     t.key("ignored", "the pixels that count as equal: in a they have the values of b");
     t.key("crop", "the part of both files that was compared; if missing, all");
@@ -272,6 +282,9 @@ void define_comparison_tables(Tables& tables) {
   tables.define<Sensitivity>("What limits find in changed copies of a picture.", [](auto& t) {
     t.kind("sensitivity");
     t.key("a", "file of the picture");
+    t.key("type", "what the values of the layer are; missing for colour")
+        .one_of(kLayerTypes)
+        .if_any();
     t.key("asExpected", "every change that matters was found, and nothing else");
     t.key("defaultLimits", "the default limits were judged too");
     t.key("limits", "besides the default ones");

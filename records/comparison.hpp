@@ -137,7 +137,7 @@ struct ReferenceFloor {
 
 /// A further layer of both files.
 struct LayerComparison {
-  std::string layer, verdict;
+  std::string layer, type, verdict;
   std::optional<Window> overscan;
   std::optional<bool> identical;
   std::string problem;
@@ -146,6 +146,7 @@ struct LayerComparison {
   std::optional<std::vector<Limit>> limits;
   std::optional<std::vector<std::string>> disagreement;
   std::vector<NotMeasured> not_measured;
+  std::string finding;
   PicturesRead pictures;
 };
 
@@ -172,7 +173,7 @@ struct Fault {
 };
 
 struct Comparison {
-  std::string verdict, a, b;
+  std::string verdict, a, b, type, finding;
   Nonfinite nonfinite;
   Viewing viewing;
   std::optional<Mask> mask, ignored;
@@ -250,7 +251,7 @@ struct GivenLimit {
 };
 
 struct Sensitivity {
-  std::string a;
+  std::string a, type;
   bool as_expected = false, default_limits = true;
   std::vector<GivenLimit> limits;
   std::vector<ChangedCopy> changes;

@@ -170,6 +170,7 @@ void define_project_tables(Tables& tables) {
         t.key("defaultLimits", "false: as --no-default-limits");
         t.key("exposure", "as --exposure");
         t.key("layer", "as --layer");
+        t.key("layerTypes", "as --layer-type: \"N=vector\"");
         t.key("scene", "as --scene");
         t.key("ignoreAlpha", "as --ignore-alpha");
         t.key("judgedVariance", "as --a-variance: \"*_variance.exr\" is beside each picture");

@@ -28,6 +28,7 @@ struct Project {
   std::string tolerance;
   std::optional<bool> default_limits;
   std::string exposure, layer, scene;
+  std::vector<std::string> layer_types;
   std::optional<bool> ignore_alpha;
   std::string judged_variance, reference_variance;
   std::optional<double> judged_samples, reference_samples;

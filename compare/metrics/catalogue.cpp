@@ -36,7 +36,11 @@
   METRIC(yiq_over)              \
   METRIC(ciede2000_over)        \
   METRIC(delta_e_itp_over)      \
-  METRIC(flip_ldr_over)
+  METRIC(flip_ldr_over)         \
+  METRIC(depth)                 \
+  METRIC(vector)                \
+  METRIC(identifier)            \
+  METRIC(coverage)
 
 namespace lobelia {
 
@@ -73,7 +77,8 @@ class Catalogue {
 #undef LOBELIA_ADDRESS
     const auto add_regions = [&](Region region) {
       for (const Metric* metric : kMetrics)
-        if (metric->in_regions) add(*metric, region);
+        if (metric->in_regions && !(metric->layer && region == Region::kHighlight))
+          add(*metric, region);
     };
     list_.push_back(kMetrics[0]);
     add_regions(Region::kHighlight);
@@ -250,6 +255,7 @@ bool is_named(const Metric& metric, std::string_view name) {
 
 bool is_measurable(const Metric& metric, const MetricInput& input) {
   const int side = std::min(input.a.width(), input.a.height());
+  if (metric.layer && (!input.layer || input.layer->type != *metric.layer)) return false;
   if (!has_pixels(metric.region, input)) return false;
   switch (metric.needs) {
     case Needs::kNothing:
@@ -268,6 +274,8 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return side >= kMsSsimSide;
     case Needs::kNoise:
       return input.noise != nullptr;
+    case Needs::kCoverage:
+      return input.layer && !input.layer->coverage.empty();
   }
   return false;
 }

@@ -22,15 +22,24 @@ std::string range_text(const MetricOutput& output) {
                              : fmt::format("{} and more", least);
 }
 
-std::string needs_text(Needs needs) {
-  switch (needs) {
+std::string needs_text(const Metric& metric) {
+  if (metric.layer && metric.needs == Needs::kNothing)
+    return fmt::format("a layer of type {}", layer_type_name(*metric.layer));
+  switch (metric.needs) {
     case Needs::kOneWindow:
       return fmt::format("{} pixels a side", kSsimSide);
     case Needs::kFiveScales:
       return fmt::format("{} pixels a side", kMsSsimSide);
     default:
-      constexpr std::string_view kOptions[] = {
-          "", "`--tolerance`", "", "", "`--exposures`", "", "", "`--a-replicate` and others"};
+      constexpr std::string_view kOptions[] = {"",
+                                               "`--tolerance`",
+                                               "",
+                                               "",
+                                               "`--exposures`",
+                                               "",
+                                               "",
+                                               "`--a-replicate` and others",
+                                               "a Cryptomatte"};
       return std::string(kOptions[std::size_t(needs)]);
   }
 }
@@ -54,14 +63,17 @@ std::string metrics_document() {
         text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", output.id,
                             family_name(metric->family), kBetter[std::size_t(output.better)],
                             range_text(output), metric->in_regions ? "yes" : "",
-                            metric->on_request ? "a request" : needs_text(metric->needs),
-                            output.meaning, metric->source);
+                            metric->on_request ? "a request" : needs_text(*metric), output.meaning,
+                            metric->source);
   text += fmt::format(
       "\n"
       "**Better** says what a limit means: `--fail rmse=0.01` passes up to 0.01, `--fail drift=0.01` from -0.01\n"
       "to 0.01, `--fail ssim=0.99` from 0.99 up. A limit beyond the range is an error. A value that was not\n"
       "measured, or is NaN, passes no limit. Equal pictures have 0, or 1 for SSIM, or an infinite `psnr`, also\n"
       "where a metric could not be measured of them.\n"
+      "\n"
+      "**Layers.** `depth`, `vector`, `identifier` and `coverage` are measured of layers of that type, and no others\n"
+      "([types of layers](pictures.md#types-of-layers)).\n"
       "\n"
       "**Families.** *Radiance* metrics use scene-linear values, neither exposed nor clipped. *Colour* and\n"
       "*structure* use the picture as shown: exposed, clipped, sRGB's primaries. *Visibility* also uses\n"

@@ -13,6 +13,7 @@
 
 #include "compare/display_light.hpp"
 #include "compare/highlights/find.hpp"
+#include "core/layer_type.hpp"
 #include "core/pixel_flags.hpp"
 
 namespace lobelia {
@@ -112,6 +113,17 @@ constexpr std::string_view region_name(Region region) {
   return kNames[std::size_t(region)];
 }
 
+/// What is known by pixel of a pair of layers that are no colours; see compare/layer_types.hpp.
+struct LayerInput {
+  LayerType type = LayerType::kColour;
+  /// Of depth: 0 where both have a surface, 1 where neither has, 2 where one alone has. Values of what is no surface are 0.
+  PixelFlags background = {};
+  /// Of identifiers: not 0 where they differ. The pictures of MetricInput are black.
+  PixelFlags differs = {};
+  /// Of a Cryptomatte: the largest difference between the shares of the pixel that one object covers; else empty.
+  PixelValues coverage = {};
+};
+
 /// A pair of pictures of one size without non-finite values; `b` is the reference.
 struct MetricInput {
   const Image& a;
@@ -129,6 +141,7 @@ struct MetricInput {
   std::span<const LocalHighlight> highlights = {};
   std::vector<ShownPair> shown_further = {};  ///< at each exposure after the first
   bool equal = false;                         ///< every value of a is b's
+  const LayerInput* layer = nullptr;          ///< null for colours
   /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metrics().
   std::span<const std::uint8_t> region = {};
   double threshold = 0;  ///< the metric's own. Set by measure_metrics().
@@ -185,6 +198,7 @@ enum class Needs : std::uint8_t {
   kOneWindow,   ///< sides of at least kSsimSide
   kFiveScales,  ///< sides of at least kMsSsimSide
   kNoise,       ///< of at least one picture
+  kCoverage,    ///< LayerInput::coverage
 };
 
 /// The side of a window of SSIM, and the least side that still holds one after MS-SSIM's halvings.
@@ -230,6 +244,8 @@ struct Metric {
   Region region = Region::kWhole;
   bool on_request = false;  ///< measured only if a limit or ComparisonOptions::metrics names it
   double threshold = 0;     ///< of a metric that counts pixels: MetricInput::threshold
+  /// The only type of layers that it is measured of; it has no region of the highlight.
+  std::optional<LayerType> layer = {};
 };
 
 }  // namespace lobelia

@@ -58,6 +58,11 @@ std::vector<CompareOption> options_of_sets() {
        .meaning =
            "Compare every layer; the verdict is the worst, and a layer that only B has fails",
        .excludes = {"layer"}},
+      {"layer-type", &Choice::layer_type, For::kFiles, "Layers", "NAME=TYPE",
+       fmt::format("What a layer is, where its name does not say it: {}. Each type has metrics "
+                   "and default limits of its own; without NAME, of the picture; may be given "
+                   "again",
+                   join(kLayerTypes))},
       {"ignore-alpha", &Choice::ignore_alpha, For::kFiles, "Layers", "",
        "Do not judge the alpha of the picture; otherwise an alpha that one side alone has "
        "fails, unless it is 1 everywhere"},

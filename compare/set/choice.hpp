@@ -22,6 +22,7 @@ struct CompareChoice {
   std::string missing_reference;  ///< empty: "notice"
 
   std::string layer;
+  std::vector<std::string> layer_type;
   bool all_layers = false, ignore_alpha = false;
 
   std::vector<std::string> fail, warn;

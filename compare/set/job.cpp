@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "compare/layer_types.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -91,6 +92,8 @@ CompareJob make_job(CompareChoice choice, const ReadScene& read_scene) {
   job.scene = choice.scene;
   job.ocio = choice.ocio;
   job.layers = {parse_layer_names(choice.layer), choice.all_layers, choice.ignore_alpha};
+  for (const std::string& text : choice.layer_type)
+    comparison.layer_types.push_back(parse_layer_type(text));
   choose_viewing(choice, comparison.viewing);
   comparison.viewing.display =
       DisplayView::open({choice.ocio, choice.display, choice.view, choice.input_space});

@@ -110,6 +110,9 @@ void fill_in(const records::Project& project, CompareChoice& choice, CompareJob&
   choice.ignore.insert(choice.ignore.begin(), ignored.begin(), ignored.end());
   if (choice.exposure.empty()) choice.exposure = project.exposure;
   if (choice.layer.empty() && !choice.all_layers) choice.layer = project.layer;
+  // The last one counts.
+  choice.layer_type.insert(choice.layer_type.begin(), project.layer_types.begin(),
+                           project.layer_types.end());
   if (choice.scene.empty()) choice.scene = from(project.scene);
   fill_in_noise(project, from, choice);
   if (choice.missing_reference.empty()) choice.missing_reference = project.missing_reference;

@@ -335,11 +335,12 @@ std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
   if (const auto sentences = sentences_on_highlights(comparison.highlights);
       !text.empty() && !sentences.empty())
     text += "; " + sentences.front();
+  if (!text.empty() && !comparison.finding.empty()) text += "; " + comparison.finding;
   return text;
 }
 
-std::string why_not_pass(const PairReport& pair) {
-  std::string text = why_not_pass(*pair.comparison, pair.a, pair.b);
+std::string why_layers_differ(const PairReport& pair) {
+  std::string text;
   if (!pair.layers) return text;
   const auto add = [&](const std::string& title, const std::string& why) {
     if (!why.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", title, why);
@@ -351,6 +352,12 @@ std::string why_not_pass(const PairReport& pair) {
     for (const std::string& name : pair.layers->common->only_b)
       add(name.empty() ? "the picture" : "layer " + printable(name), "only b has it");
   return text;
+}
+
+std::string why_not_pass(const PairReport& pair) {
+  std::string text = why_not_pass(*pair.comparison, pair.a, pair.b);
+  const std::string layers = why_layers_differ(pair);
+  return text.empty() || layers.empty() ? text + layers : text + "; " + layers;
 }
 
 records::Comparison pair_record(const PairReport& pair) {

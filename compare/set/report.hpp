@@ -117,6 +117,8 @@ std::string value_text(const Comparison& comparison, const LimitResult& limit);
 /// of the first, with the names of the files. Empty for a pass.
 std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
                          std::string_view file_b);
+/// The same for all but the picture: "layer Z (depth): depth.background is 12, limit 0; layer N: only b has it".
+std::string why_layers_differ(const PairReport& pair);
 /// The same for the picture and its layers.
 std::string why_not_pass(const PairReport& pair);
 

@@ -25,13 +25,25 @@ std::vector<std::string_view> measured_ids(const SetReport& report) {
   return ids;
 }
 
+/// "layer Z (depth): pass; layer crypto (identifier): differs": what was compared besides the picture.
+std::string layers_text(const PairReport& pair) {
+  std::string text;
+  if (!pair.layers) return text;
+  for (const LayerComparison& layer : pair.layers->compared)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", layer.title(),
+                        verdict_name(layer.verdict()));
+  return text;
+}
+
 }  // namespace
 
 std::string set_csv(const SetReport& report) {
   const std::vector<std::string_view> ids = measured_ids(report);
+  const bool has_layers = std::ranges::any_of(
+      report.pairs, [](const PairReport& pair) { return !layers_text(pair).empty(); });
   std::string text = "name,verdict,why";
   for (const std::string_view id : ids) text += fmt::format(",{}", id);
-  text += "\r\n";
+  text += has_layers ? ",layers\r\n" : "\r\n";
   for (const NameOutcome& one : outcomes(report)) {
     std::string why = one.why();
     const PairReport* const pair = one.pair;
@@ -45,6 +57,7 @@ std::string set_csv(const SetReport& report) {
           pair && pair->comparison ? records::find(pair->comparison->metrics, id) : nullptr;
       text += value ? fmt::format(",{}", *value) : ",";
     }
+    if (has_layers) text += pair ? "," + field(layers_text(*pair)) : ",";
     text += "\r\n";
   }
   return text;

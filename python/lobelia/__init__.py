@@ -199,7 +199,7 @@ def compare(
     `{"rmse": 0.001}` or `["rmse=0.001"]`, and add to the default limits unless `default_limits` is false.
 
     Options are those of `lobelia compare`: `tolerance="6e-4,1e-8,3"`, `scene`, `mask`, `ignore`, `crop`, `exposure`,
-    `exposures`, `a_replicate`, `a_error` and more; `layer`, `all_layers` and `ignore_alpha` for two files. Several
+    `exposures`, `a_replicate`, `a_error` and more; `layer`, `layer_type`, `all_layers` and `ignore_alpha` for two files. Several
     numbers may be a tuple, a list or an array, as in `crop=(x, y, width, height)`. Pixels that a numpy.ma.MaskedArray masks
     count as equal, as those of `ignore`.
 

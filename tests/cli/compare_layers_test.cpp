@@ -64,7 +64,7 @@ TEST_F(ComparePictures, WithAllLayersTheWorstIsTheVerdictAndEachHasItsFigures) {
   EXPECT_EQ(made["layersInOne"]["a"], Record({"Z"}));
   EXPECT_EQ(made["layersInOne"]["b"], Record({"id"}));
   const std::string table = compare({"a.exr", "b.exr", "--all-layers"}).output_tail;
-  EXPECT_THAT(table, HasSubstr("layer A: differs; max_rel_peak 0.3333 (limit 0.01)"));
+  EXPECT_THAT(table, HasSubstr("layer A (alpha): differs; max_rel_peak 0.3333 (limit 0.01)"));
   EXPECT_THAT(table, HasSubstr("only in a: Z"));
   EXPECT_THAT(table, HasSubstr("only in b: id"));
   EXPECT_THAT(table, HasSubstr("verdict: differs"));
@@ -201,6 +201,60 @@ TEST_F(ComparePictures, EveryComponentOfAVectorIsCompared) {
   for (const char* other : {"other_x.exr", "other_y.exr"})
     EXPECT_EQ(compare({other, "a.exr", "--layer=motion"}).exit_code, 1) << other;
   EXPECT_EQ(compare({"a.exr", "a.exr", "--layer", "motion"}).exit_code, 0);
+}
+
+TEST_F(ComparePictures, LayersHaveATypeThatEveryReportNames) {
+  std::vector<float> far(32 * 32, 2.0f), ids(32 * 32, 7.0f);
+  far[3] = std::numeric_limits<float>::infinity();
+  flat("b.exr", 0.5f, {{"Z", far}, {"id", ids, Imf::UINT}, channel("mine", 1)});
+  far[4] = far[3];
+  ids[9] = 8;
+  flat("a.exr", 0.5f, {{"Z", far}, {"id", ids, Imf::UINT}, channel("mine", 1.0000001f)});
+  const Record made = record({"a.exr", "b.exr", "--all-layers"}, 1);
+  std::map<std::string, Record> layers;
+  for (const Record& layer : made["layers"]) layers[layer["layer"]] = layer;
+  EXPECT_EQ(layers["Z"]["type"], "depth");
+  EXPECT_EQ(layers["Z"]["metrics"]["depth.background"], 1);
+  EXPECT_EQ(layers["id"]["type"], "identifier");
+  EXPECT_EQ(layers["id"]["metrics"]["identifier.pixels"], 1);
+  EXPECT_EQ(layers["id"]["finding"], "a has 8 where b has 7, in 1 pixels");
+  EXPECT_EQ(layers["mine"]["type"], "colour");
+  EXPECT_FALSE(made.contains("type")) << "the picture is a colour";
+  EXPECT_THAT(
+      compare({"a.exr", "b.exr", "--all-layers"}).output_tail,
+      AllOf(HasSubstr("layer Z (depth): differs"), HasSubstr("depth.background 1 (limit 0)"),
+            HasSubstr("layer id (identifier): differs; identifier.pixels 1 (limit 0); a has 8")));
+  EXPECT_THAT(
+      compare({"a.exr", "b.exr", "--all-layers", "--csv", "-"}).output_tail,
+      HasSubstr("layer Z (depth): differs; layer id (identifier): differs; layer mine: pass"));
+  for (const char* report : {"-q", "--junit=-", "--markdown=-"})
+    EXPECT_THAT(compare({"a.exr", "b.exr", "--all-layers", report}).output_tail,
+                HasSubstr("identifier.pixels is 1, limit 0"))
+        << report;
+  const std::vector<std::string> exactly{"a.exr", "b.exr", "--layer", "mine", "--layer-type"};
+  const auto as = [&](const char* type) {
+    std::vector<std::string> arguments = exactly;
+    arguments.emplace_back(type);
+    return arguments;
+  };
+  EXPECT_EQ(record(as("mine=identifier"), 1)["type"], "identifier");
+  EXPECT_EQ(record(as("mine=depth"), 0)["type"], "depth");
+  EXPECT_EQ(compare(as("mine=number")).exit_code, 2);
+  EXPECT_EQ(compare(as("yours=depth")).exit_code, 3);
+}
+
+TEST_F(ComparePictures, SensitivityIsThatOfTheLayersType) {
+  std::vector<float> depths(32 * 32);
+  for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = 2 + 0.001f * float(i);
+  flat("a.exr", 0.5f, {{"Z", depths}});
+  const Record made = record({"--sensitivity", "a.exr", "--layer", "Z"}, 0);
+  EXPECT_EQ(made["type"], "depth");
+  EXPECT_EQ(made["asExpected"], true);
+  EXPECT_GT(made["changes"].size(), 5u);
+  EXPECT_EQ(compare({"--sensitivity", "a.exr", "--layer", "Z", "--fail", "depth.background=1e6"})
+                .exit_code,
+            1)
+      << "one pixel's surface is not found";
 }
 
 TEST_F(ComparePictures, AChannelThatDiffersAloneNeverPassesUnsaid) {

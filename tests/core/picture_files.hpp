@@ -255,6 +255,7 @@ struct ExrChannel {
   std::string name;
   std::vector<float> values;
   Imf::PixelType type = Imf::FLOAT;
+  std::vector<std::uint32_t> numbers = {};  ///< of UINT, in place of the values
 };
 
 struct ExrPart {
@@ -300,6 +301,8 @@ inline void write_exr_parts(const std::filesystem::path& path, const std::vector
       if (channel.type == Imf::HALF) {
         values = halves.emplace_back(channel.values.begin(), channel.values.end()).data();
         size = 2;
+      } else if (!channel.numbers.empty()) {
+        values = channel.numbers.data();
       } else if (channel.type == Imf::UINT) {
         values = numbers.emplace_back(channel.values.begin(), channel.values.end()).data();
       }

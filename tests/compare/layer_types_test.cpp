@@ -1,0 +1,405 @@
+// Layers that are no colours: how their type is told, and what is measured of each.
+#include "compare/layer_types.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "compare/layer_sensitivity.hpp"
+#include "tests/compare/layer_files.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+using namespace fixtures;
+using ::testing::HasSubstr;
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+LayerType type_of(std::string layer, std::vector<std::string> channels,
+                  const std::string& value_type = "float",
+                  std::vector<std::string> cryptomattes = {}) {
+  PictureSource source;
+  source.format = "openexr";
+  source.layer = std::move(layer);
+  source.channels = std::move(channels);
+  source.value_type = value_type;
+  source.cryptomattes = std::move(cryptomattes);
+  return layer_type(source);
+}
+
+TEST(LayerTypes, AreToldByNamesChannelsAndMetadata) {
+  using Type = LayerType;
+  EXPECT_EQ(type_of("", {"R", "G", "B"}), Type::kColour);
+  EXPECT_EQ(type_of("V.Combined", {"V.Combined.R", "V.Combined.G", "V.Combined.B"}), Type::kColour);
+  EXPECT_EQ(
+      type_of("normal.Combined", {"normal.Combined.R", "normal.Combined.G", "normal.Combined.B"}),
+      Type::kColour)
+      << "a view layer of that name";
+  EXPECT_EQ(type_of("", {"Y"}), Type::kColour);
+  EXPECT_EQ(type_of("AO", {"AO"}), Type::kColour);
+  EXPECT_EQ(type_of("A", {"A"}), Type::kAlpha);
+  EXPECT_EQ(type_of("diffuse.alpha", {"diffuse.alpha"}), Type::kAlpha);
+  for (const char* name : {"Z", "ZBack", "depth", "ViewLayer.Depth.Z", "distance", "depth.left.Z"})
+    EXPECT_EQ(type_of(name, {name}), Type::kDepth) << name;
+  EXPECT_EQ(type_of("", {"Z"}), Type::kDepth) << "the picture is depth";
+  EXPECT_EQ(type_of("depth", {"depth.R", "depth.G", "depth.B"}), Type::kDepth);
+  EXPECT_EQ(type_of("N", {"N.X", "N.Y", "N.Z"}), Type::kVector);
+  EXPECT_EQ(type_of("View.Normal", {"View.Normal.R", "View.Normal.G", "View.Normal.B"}),
+            Type::kVector);
+  EXPECT_EQ(type_of("flow", {"flow.x", "flow.y"}), Type::kVector) << "by its channels";
+  EXPECT_EQ(type_of("N.left", {"N.left.R", "N.left.G", "N.left.B"}), Type::kVector);
+  EXPECT_EQ(type_of("N.Z", {"N.Z"}), Type::kColour) << "a component has no direction";
+  for (const char* name : {"id", "objectId", "V.IndexOB.X", "material_id"})
+    EXPECT_EQ(type_of(name, {name}), Type::kIdentifier) << name;
+  EXPECT_EQ(type_of("anything", {"anything"}, "uint"), Type::kIdentifier);
+  EXPECT_EQ(type_of("matte01", {"matte01.R", "matte01.G", "matte01.B"}), Type::kColour);
+  EXPECT_EQ(type_of("matte01", {"matte01.R", "matte01.G", "matte01.B"}, "float", {"matte"}),
+            Type::kIdentifier)
+      << "by the metadata";
+  EXPECT_EQ(type_of("V.CryptoObject00",
+                    {"V.CryptoObject00.r", "V.CryptoObject00.g", "V.CryptoObject00.b"}),
+            Type::kIdentifier);
+  EXPECT_EQ(type_of("matte00.A", {"matte00.A"}, "float", {"matte"}), Type::kAlpha) << "coverage";
+  EXPECT_EQ(type_of("", {}), Type::kColour) << "an array";
+}
+
+TEST(LayerTypes, AreReadFromNameAndType) {
+  EXPECT_EQ(parse_layer_type("N=vector").layer, "N");
+  EXPECT_EQ(parse_layer_type("a=b=depth").layer, "a=b");
+  EXPECT_EQ(parse_layer_type("=alpha").type, LayerType::kAlpha);
+  for (const char* wrong : {"N", "N=", "N=normal", "vector"}) try {
+      parse_layer_type(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kUsage);
+      EXPECT_THAT(error.what(), HasSubstr("colour, alpha, depth, vector, identifier"));
+    }
+}
+
+class Identifiers : public LayerFiles {
+ protected:
+  /// As a channel of floats with these bits, or of integers.
+  static ExrChannel channel(const std::vector<std::uint32_t>& ids, bool as_floats) {
+    std::vector<float> values;
+    for (const std::uint32_t id : ids) values.push_back(std::bit_cast<float>(id));
+    if (as_floats) return {"id", values};
+    return {.name = "id", .values = {}, .type = Imf::UINT, .numbers = ids};
+  }
+};
+
+TEST_F(Identifiers, AreCountedWhereAnyBitDiffers) {
+  // 0 and -0, NaNs, infinity, numbers that a float holds and that it does not, and neighbours of these.
+  constexpr std::uint32_t kBits[] = {0,          0x80000000, 0x7fc00000, 0x7fc00001, 0xffffffff,
+                                     0x7f800000, 1,          0x3f800000, 16777216,   16777217};
+  std::mt19937 random(3);
+  for (int run = 0; run < 24; ++run) {
+    const bool as_floats = run % 2 == 0;
+    std::vector<std::uint32_t> b(kPixels), a;
+    for (auto& id : b)
+      id = random() % 2 == 0 ? kBits[random() % std::size(kBits)] : std::uint32_t(random());
+    a = b;
+    const std::size_t changes = random() % 5;
+    for (std::size_t i = 0; i < changes; ++i) a[random() % kPixels] ^= 1u << random() % 32;
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < kPixels; ++i) differ += a[i] != b[i];
+    const LayerComparison layer =
+        compare_channels({channel(a, as_floats)}, {channel(b, as_floats)});
+    EXPECT_EQ(layer.type, LayerType::kIdentifier);
+    EXPECT_EQ(value(layer, "identifier.pixels"), double(differ)) << run;
+    EXPECT_EQ(value(layer, "identifier.share"), double(differ) / kPixels);
+    EXPECT_EQ(layer.verdict(), differ == 0 ? Verdict::kPass : Verdict::kDiffers);
+  }
+}
+
+TEST_F(Identifiers, AreCountedAndNamedWhereTheyAreExchanged) {
+  std::vector<std::uint32_t> b(kPixels), a(kPixels);
+  std::size_t differ = 0;
+  std::mt19937 random(4);
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    b[i] = 12 + std::uint32_t(random() % 3);
+    a[i] = b[i] == 12 ? 13 : b[i] == 13 ? 12 : b[i];
+    differ += a[i] != b[i];
+  }
+  for (const bool as_floats : {false, true}) {
+    const LayerComparison layer =
+        compare_channels({channel(a, as_floats)}, {channel(b, as_floats)});
+    EXPECT_EQ(value(layer, "identifier.pixels"), double(differ));
+    EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
+  }
+  EXPECT_THAT(compare_channels({channel(a, false)}, {channel(b, false)}).comparison->finding,
+              HasSubstr("a has 1"));
+}
+
+TEST_F(Identifiers, AreComparedAsNumbersIfTheirTypesDiffer) {
+  std::vector<std::uint32_t> numbers(kPixels);
+  std::vector<float> floats(kPixels);
+  for (std::size_t i = 0; i < kPixels; ++i) numbers[i] = std::uint32_t(i), floats[i] = float(i);
+  floats[7] = 3;
+  EXPECT_EQ(
+      value(compare_channels({channel(numbers, false)}, {{"id", floats}}), "identifier.pixels"), 1);
+}
+
+TEST_F(Identifiers, AreJudgedWhateverLimitsAreGiven) {
+  std::vector<std::uint32_t> b(kPixels, 5), a = b;
+  a[3] = 6;
+  ComparisonOptions how = options();
+  how.limits = {{"rmse", 1e9}};
+  how.default_limits = false;
+  EXPECT_EQ(compare_channels({channel(a, false)}, {channel(b, false)}, how).verdict(),
+            Verdict::kDiffers);
+  how.limits = {{"identifier.pixels", 1}};
+  const LayerComparison allowed = compare_channels({channel(a, false)}, {channel(b, false)}, how);
+  EXPECT_EQ(allowed.verdict(), Verdict::kPass);
+  EXPECT_EQ(allowed.comparison->limits.size(), 1u);
+}
+
+class Depth : public LayerFiles {
+ protected:
+  static ExrChannel channel(const std::vector<float>& depths, Imf::PixelType type = Imf::FLOAT) {
+    return {"Z", depths, type};
+  }
+  static std::vector<float> random_depths(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> stops(-5, 15);
+    std::vector<float> depths(kPixels);
+    for (float& depth : depths) depth = std::exp2(stops(random));
+    return depths;
+  }
+};
+
+TEST_F(Depth, IsMeasuredRelativeToItself) {
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    const std::vector<float> b = random_depths(seed);
+    std::vector<float> a = b;
+    for (float& depth : a) depth *= 0.98f;
+    const LayerComparison layer = compare_channels({channel(a)}, {channel(b)});
+    EXPECT_EQ(layer.type, LayerType::kDepth);
+    EXPECT_NEAR(value(layer, "depth.relative.mean"), 0.02, 1e-6);
+    EXPECT_NEAR(value(layer, "depth.relative.max"), 0.02, 1e-6);
+    EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
+  }
+}
+
+TEST_F(Depth, PassesInHalfFloats) {
+  const std::vector<float> depths = random_depths(9);
+  const LayerComparison layer = compare_channels({channel(depths, Imf::HALF)}, {channel(depths)});
+  EXPECT_EQ(layer.verdict(), Verdict::kPass);
+  EXPECT_GT(value(layer, "depth.relative.max"), 1e-5);
+  EXPECT_LE(value(layer, "depth.relative.max"), 0x1p-11);
+}
+
+TEST_F(Depth, TakesInfinityAndBlendersValueForBackground) {
+  std::vector<float> b = random_depths(2), a = b;
+  constexpr float kFar[] = {kInf, 1e10f, 3e30f};
+  for (std::size_t i = 0; i < 40; ++i) {
+    a[i] = kFar[i % 3];
+    b[i] = kFar[i / 3 % 3];
+  }
+  EXPECT_EQ(compare_channels({channel(a)}, {channel(b)}).verdict(), Verdict::kPass);
+  EXPECT_EQ(compare_channels({channel(a, Imf::HALF)}, {channel(b)}).verdict(), Verdict::kPass)
+      << "a half makes infinity of 1e10";
+}
+
+TEST_F(Depth, CountsPixelsWhereOneAloneHasASurface) {
+  for (const bool in_a : {true, false}) {
+    std::vector<float> b = random_depths(2), a = b;
+    (in_a ? a : b)[5] = kInf;
+    (in_a ? a : b)[6] = 1e10f;
+    a[7] = kInf;
+    b[7] = -kInf;
+    const LayerComparison layer = compare_channels({channel(a)}, {channel(b)});
+    EXPECT_EQ(value(layer, "depth.background"), 3);
+    EXPECT_EQ(value(layer, "depth.relative.max"), 0) << "of surfaces";
+    EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
+  }
+}
+
+TEST_F(Depth, IsNotFiniteWithANanInOneAlone) {
+  std::vector<float> b = random_depths(2), a = b;
+  a[5] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(compare_channels({channel(a)}, {channel(b)}).verdict(), Verdict::kNonFinite);
+  b[5] = a[5];
+  EXPECT_EQ(compare_channels({channel(a)}, {channel(b)}).verdict(), Verdict::kPass);
+}
+
+class Vectors : public LayerFiles {
+ protected:
+  using Three = std::array<std::vector<float>, 3>;
+  static std::vector<ExrChannel> channels(const Three& v, Imf::PixelType type = Imf::FLOAT) {
+    return {{"N.X", v[0], type}, {"N.Y", v[1], type}, {"N.Z", v[2], type}};
+  }
+  /// Unit vectors, and those turned by `degrees` about a perpendicular axis.
+  static std::pair<Three, Three> turned(unsigned seed, double degrees) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::pair<Three, Three> both;
+    const double angle = degrees * std::numbers::pi / 180;
+    for (int i = 0; i < kPixels; ++i) {
+      std::array<double, 3> n, t;
+      for (std::size_t c = 0; c < 3; ++c) n[c] = normal(random), t[c] = normal(random);
+      const auto dot = [](const auto& p, const auto& q) {
+        return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+      };
+      const double length = std::sqrt(dot(n, n));
+      for (double& c : n) c /= length;
+      const double along = dot(n, t);
+      for (std::size_t c = 0; c < 3; ++c) t[c] -= along * n[c];
+      const double across = std::sqrt(dot(t, t));
+      for (std::size_t c = 0; c < 3; ++c) {
+        both.first[c].push_back(float(n[c]));
+        both.second[c].push_back(float(std::cos(angle) * n[c] + std::sin(angle) * t[c] / across));
+      }
+    }
+    return both;
+  }
+};
+
+TEST_F(Vectors, HaveTheAngleBetweenThem) {
+  for (const double degrees : {0.05, 0.5, 5.0, 90.0, 179.0}) {
+    const auto [b, a] = turned(7, degrees);
+    const LayerComparison layer = compare_channels(channels(a), channels(b));
+    EXPECT_EQ(layer.type, LayerType::kVector);
+    // Rounded components turn a unit vector by up to 1e-7, and floats hold angles of 179 degrees within 1.5e-5.
+    for (const char* id : {"vector.angle.mean", "vector.angle.p95", "vector.angle.max"})
+      EXPECT_NEAR(value(layer, id), degrees, 3e-5) << id;
+    EXPECT_LT(value(layer, "vector.length.max"), 2e-7);
+    EXPECT_EQ(layer.verdict(), degrees < 0.1 ? Verdict::kPass : Verdict::kDiffers);
+  }
+}
+
+TEST_F(Vectors, HaveTheDifferenceOfTheirLengths) {
+  const auto [b, unused] = turned(8, 1);
+  Three a = b;
+  for (auto& component : a)
+    for (float& value : component) value *= 1.02f;
+  const LayerComparison layer = compare_channels(channels(a), channels(b));
+  EXPECT_NEAR(value(layer, "vector.length.mean"), 0.02, 1e-6);
+  EXPECT_LT(value(layer, "vector.angle.max"), 1e-4);
+  EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
+}
+
+TEST_F(Vectors, PassInHalfFloats) {
+  const auto [b, unused] = turned(9, 1);
+  EXPECT_EQ(compare_channels(channels(b, Imf::HALF), channels(b)).verdict(), Verdict::kPass);
+}
+
+TEST_F(Vectors, DifferIfTheyAreLost) {
+  const auto [b, unused] = turned(10, 1);
+  Three a = b;
+  for (auto& component : a) component[3] = 0;
+  const LayerComparison layer = compare_channels(channels(a), channels(b));
+  EXPECT_NEAR(value(layer, "vector.length.max"), 1, 1e-6);
+  EXPECT_EQ(value(layer, "vector.angle.max"), 0) << "nothing has no direction";
+  EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
+}
+
+TEST_F(LayerFiles, ATypeThatIsGivenReplacesTheOneThatWasTold) {
+  const std::vector<float> ones(kPixels, 1.0f), more(kPixels, 1.000001f);
+  file("a.exr", {{"mine", more}});
+  file("b.exr", {{"mine", ones}});
+  EXPECT_EQ(compare_one().type, LayerType::kColour);
+  ComparisonOptions how = options();
+  how.layer_types = {{"MINE", LayerType::kIdentifier}};
+  EXPECT_EQ(value(compare_one(how), "identifier.pixels"), kPixels);
+  how.layer_types.push_back({"mine", LayerType::kDepth});
+  const LayerComparison depth = compare_one(how);
+  EXPECT_EQ(depth.type, LayerType::kDepth) << "the last one counts";
+  EXPECT_EQ(depth.verdict(), Verdict::kPass);
+  how.layer_types = {{"mien", LayerType::kDepth}};
+  try {
+    compare_one(how);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_THAT(error.what(), HasSubstr("no layer 'mien'; did you mean 'mine'?"));
+  }
+}
+
+TEST_F(LayerFiles, ColoursKeepTheirDigits) {
+  // compare_pictures() of a file's colours gives what compare() does, bit for bit, and no metric of layers.
+  const Image a = fixtures::highlight(48, 40, 20, 3.0), b = fixtures::highlight(48, 40, 22, 3.1);
+  PicturePair pair{{a, {}, {}}, {b, {}, {}}};
+  for (Picture* picture : {&pair.a, &pair.b}) {
+    picture->source.format = "openexr";
+    picture->source.channels = {"R", "G", "B"};
+    picture->source.value_type = "float";
+  }
+  ComparisonOptions how = options();
+  how.limits = {{"depth.relative.max", 0.5}, {"identifier.pixels", 0}};
+  ComparisonOptions plain = options();
+  const Comparison by_type = compare_pictures(pair, "a", "b", how), direct = compare(a, b, plain);
+  ASSERT_EQ(by_type.metrics.size(), direct.metrics.size());
+  for (std::size_t i = 0; i < direct.metrics.size(); ++i) {
+    EXPECT_EQ(by_type.metrics[i].first, direct.metrics[i].first);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(by_type.metrics[i].second),
+              std::bit_cast<std::uint64_t>(direct.metrics[i].second));
+  }
+  EXPECT_EQ(by_type.limits.size(), direct.limits.size());
+}
+
+TEST_F(LayerFiles, AlphaIsJudgedAsAShare) {
+  const std::vector<float> half(kPixels, 0.5f), less(kPixels, 0.49f);
+  file("a.exr", {{"d.R", half}, {"d.G", half}, {"d.B", half}, {"d.A", less}});
+  file("b.exr", {{"d.R", half}, {"d.G", half}, {"d.B", half}, {"d.A", half}});
+  ComparisonOptions dark = options();
+  dark.viewing.exposure_stops = -20;
+  for (const LayerComparison& layer : compare_all(dark).compared)
+    EXPECT_EQ(layer.verdict(), layer.name == "d.A" ? Verdict::kDiffers : Verdict::kPass)
+        << layer.name;
+}
+
+/// Changed copies of the layer "L" of a file, as --sensitivity makes them.
+class LayerSensitivity : public LayerFiles {
+ protected:
+  std::vector<Change> changes(const std::vector<ExrChannel>& channels, const std::string& layer,
+                              const ComparisonOptions& how = options()) {
+    return layer_sensitivity(read_picture(file("a.exr", channels), layer), path("a.exr").string(),
+                             how);
+  }
+  static void expect_as_expected(const std::vector<Change>& changes, std::size_t at_least) {
+    EXPECT_GE(changes.size(), at_least);
+    for (const Change& change : changes)
+      EXPECT_TRUE(change.is_as_expected())
+          << change.name << ": " << verdict_name(change.verdict) << " by " << change.found_by;
+  }
+};
+
+TEST_F(LayerSensitivity, FindsWhatMattersOfEveryType) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> unit(0.1f, 1);
+  std::normal_distribution<float> normal;
+  for (int run = 0; run < 4; ++run) {
+    std::vector<float> shares(kPixels), depths(kPixels), x(kPixels), y(kPixels), z(kPixels);
+    std::vector<std::uint32_t> ids(kPixels);
+    for (std::size_t i = 0; i < kPixels; ++i) {
+      shares[i] = unit(random);
+      depths[i] = i % 9 == 0 ? 1e10f : 100 * unit(random);
+      x[i] = normal(random), y[i] = normal(random), z[i] = normal(random);
+      ids[i] = std::uint32_t(random() % 5);
+    }
+    expect_as_expected(changes({{"A", shares}}, "A"), 4);
+    expect_as_expected(changes({{"Z", depths}}, "Z"), 6);
+    expect_as_expected(changes({{"N.X", x}, {"N.Y", y}, {"N.Z", z}}, "N"), 6);
+    expect_as_expected(changes({{"motion.x", x}, {"motion.y", y}}, "motion"), 6);
+    expect_as_expected(
+        changes({{.name = "id", .values = {}, .type = Imf::UINT, .numbers = ids}}, "id"), 3);
+  }
+}
+
+TEST_F(LayerSensitivity, TellsOfLimitsThatFindNothing) {
+  ComparisonOptions loose = options();
+  loose.limits = {{"depth.relative.p95", 1}, {"depth.relative.max", 1}, {"depth.background", 1e9}};
+  std::vector<float> depths(kPixels, 3.0f);
+  EXPECT_FALSE(are_as_expected(changes({{"Z", depths}}, "Z", loose)));
+}
+
+TEST_F(LayerSensitivity, NeedsSomethingToChange) {
+  EXPECT_THROW(changes({{"Z", std::vector<float>(kPixels, kInf)}}, "Z"), Error);
+  const std::vector<float> zero(kPixels, 0.0f);
+  EXPECT_THROW(changes({{"N.X", zero}, {"N.Y", zero}, {"N.Z", zero}}, "N"), Error);
+}
+
+}  // namespace
+}  // namespace lobelia
