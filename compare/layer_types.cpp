@@ -152,11 +152,11 @@ ComparisonOptions options_of_type(LayerType type, const ComparisonOptions& optio
         own.limits.push_back(limit);
   }
   if (type == LayerType::kIdentifier || own.metrics.empty()) {
+    const std::vector<std::string_view> names =
+        type == LayerType::kIdentifier ? std::vector<std::string_view>{"identifier", "coverage"}
+                                       : std::vector<std::string_view>{"radiance"};
     own.metrics.clear();
-    for (const std::string_view name :
-         type == LayerType::kIdentifier
-             ? std::initializer_list<std::string_view>{"identifier", "coverage"}
-             : std::initializer_list<std::string_view>{"radiance"})
+    for (const std::string_view name : names)
       for (const std::string_view region : {"", ".mask", ".outside"})
         own.metrics.push_back(fmt::format("{}{}", name, region));
   }
