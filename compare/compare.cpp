@@ -402,7 +402,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (result.highlight_pixels.value_or(0) > 0)
     result.blind_limits = blind_limits(judge(options.limits, result), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
-  if (finite && !is_pass(result.verdict)) result.faults = find_faults(a, b);
+  // Only of colours: nobody clips or encodes a depth.
+  if (finite && !options.layer && !is_pass(result.verdict)) result.faults = find_faults(a, b);
   return result;
 }
 

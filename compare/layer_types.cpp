@@ -21,8 +21,8 @@ bool is_measured_of(LayerType type, const Metric& metric, bool has_coverage) {
   if (metric.needs == Needs::kCoverage && !has_coverage) return false;
   if (metric.layer) return *metric.layer == type;
   if (type == LayerType::kColour) return true;
-  const bool of_highlight =
-      metric.region == Region::kHighlight || metric.needs == Needs::kHighlight;
+  const bool of_highlight = metric.region == Region::kHighlight ||
+                            metric.needs == Needs::kHighlight || metric.needs == Needs::kHighlights;
   return type != LayerType::kIdentifier && metric.family == Family::kRadiance && !of_highlight;
 }
 
@@ -189,6 +189,7 @@ Comparison compare_values(Image& a, Image& b, const PictureSource& source_a,
     own.viewing = is_automatic ? with_exposures(options.viewing, a, b) : options.viewing;
     own.viewing.automatic = false;
     own.viewing.tail_stops.reset();
+    own.viewing.further_stops.clear();
   }
   if (type != LayerType::kColour) own.layer = &layer;
   comparison = compare(a, b, own);
