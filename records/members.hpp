@@ -55,7 +55,7 @@ consteval auto pointers_to(const Members&... members) {
 
 template <class T>
 consteval auto member_pointers() {
-  static_assert(count_members<T>() <= 26, "a struct of more members needs more lines here");
+  static_assert(count_members<T>() <= 27, "a struct of more members needs more lines here");
 #define LOBELIA_MEMBERS(count, ...)               \
   if constexpr (count_members<T>() == count) {    \
     const auto& [__VA_ARGS__] = kUnmade<T>.value; \
@@ -87,6 +87,8 @@ consteval auto member_pointers() {
   LOBELIA_MEMBERS(24, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x)
   LOBELIA_MEMBERS(25, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y)
   LOBELIA_MEMBERS(26, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z)
+  LOBELIA_MEMBERS(27, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+                  aa)
 #undef LOBELIA_MEMBERS
 }
 
