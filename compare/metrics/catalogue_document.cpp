@@ -40,7 +40,7 @@ std::string needs_text(const Metric& metric) {
                                                "",
                                                "`--a-replicate` and others",
                                                "a Cryptomatte"};
-      return std::string(kOptions[std::size_t(needs)]);
+      return std::string(kOptions[std::size_t(metric.needs)]);
   }
 }
 
