@@ -147,7 +147,7 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOp
   const auto in_short = [](const PictureNoise* one) -> std::optional<records::PictureNoise> {
     if (!one) return std::nullopt;
     return records::PictureNoise{one->freedom, one->shared, one->layer, one->fireflies,
-                                 one->fireflies >= kHeavyTails};
+                                 one->has_heavy_tails()};
   };
   const double tests = count_of_tests(input.a.width(), input.a.height());
   return {.a = in_short(input.noise->a),

@@ -64,8 +64,6 @@ void PictureParts::apply(int width, int height, ComparisonOptions& options) cons
   if (!options.noise) return;
   for (auto* noise : {&options.noise->a, &options.noise->b}) {
     if (!*noise) continue;
-    PixelFlags& upward = (*noise)->upward;
-    if (options.crop && !upward.empty()) upward = cut(upward, width, *options.crop);
     for (Image* errors : (*noise)->images()) {
       if (options.crop) *errors = cut(std::move(*errors), *options.crop);
       for (std::size_t i = 0; i < 3 * options.ignored.size(); ++i)

@@ -166,7 +166,7 @@ struct NoisyFigures::Figures {
     } else if (std::isfinite(figure.distance)) {
       high +=
           factor(noise, far, false) * worst([](const Spreads& s) { return s.noisier.deviation(); });
-      low = std::max(0.0, low - floor_most(near));
+      low = has_heavy_tails ? 0 : std::max(0.0, low - floor_most(near));
       if (output.is_largest_difference) {
         const auto [largest, left] = largest_without_noise(figure.metric->region, input, near);
         low = largest > 0 ? std::max(0.0, left / largest) * figure.distance : 0;
@@ -182,6 +182,7 @@ struct NoisyFigures::Figures {
   std::vector<Figure> list;
   std::map<Region, RegionNoise> regions;
   int count = 0;
+  bool has_heavy_tails = false;
 };
 
 NoisyFigures::NoisyFigures(std::span<const Metric* const> list, const MetricInput& input,
@@ -192,6 +193,8 @@ NoisyFigures::NoisyFigures(std::span<const Metric* const> list, const MetricInpu
   std::map<std::string_view, std::size_t> places;
   std::vector<Figure>& figures = figures_->list;
   figures_->count = options.count;
+  for (const PictureNoise* one : {noise.a, noise.b})
+    figures_->has_heavy_tails = figures_->has_heavy_tails || (one && one->has_heavy_tails());
   measure_each(list, input, [&](const Metric& metric, const MetricOutput& output, double value) {
     places[output.id] = figures.size();
     figures.push_back(

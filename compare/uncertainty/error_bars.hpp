@@ -18,6 +18,8 @@
 //               replicates do not tell. Its low is the largest of |a - b| - c * error over the values, by the cautious
 //               errors (noise.hpp) and the c that all values together exceed in so many pairs. So a firefly that a
 //               replicate has is no difference.
+// Heavy tails:  noise with fireflies, turned into dark spots by a draw, hardly shows on a dark surface, so its floor would be
+//               too low. Such a floor is not known: low is 0, but for signed figures and the largest of differences.
 // Exact for:    norms: mae, rmse, mse, max_abs, psnr. The others are nearly norms;
 //               tests/compare/uncertainty_test.cpp measures their coverage, and `lobelia verify verdicts` the verdicts.
 // Factor:       97.5 % is Student's t times sqrt(1 + 1 / count), the bound of another draw. Its degrees of freedom are

@@ -140,31 +140,6 @@ PictureNoise noise_of(const Image& error, double freedom, bool shared) {
   return noise;
 }
 
-/// The pixels whose error is far larger than around them, where the mean is brighter than around it.
-PixelFlags errs_upwards(const Image& mean, const Image& error) {
-  constexpr double kFar = 2.5;
-  const Variances variances(error);
-  const auto sum = [](auto of_channel) { return of_channel(0) + of_channel(1) + of_channel(2); };
-  const auto light = [&](int x, int y) {
-    const auto pixel = mean.pixel(x, y);
-    return pixel[0] + pixel[1] + pixel[2];
-  };
-  PixelFlags upward(mean.pixel_count());
-  oneapi::tbb::parallel_for(0, mean.height(), [&](int y) {
-    for (int x = 0; x < mean.width(); ++x) {
-      const double own = sum([&](int c) { return variances.at(x, y, c); });
-      const double around = sum([&](int c) { return variances.mean_around(x, y, c); });
-      if (!(own > kFar * kFar * around)) continue;
-      int darker = 0, count = 0;
-      for (int j = std::max(0, y - 1); j <= std::min(mean.height() - 1, y + 1); ++j)
-        for (int i = std::max(0, x - 1); i <= std::min(mean.width() - 1, x + 1); ++i, ++count)
-          darker += light(i, j) < light(x, y);
-      upward[std::size_t(y) * std::size_t(mean.width()) + std::size_t(x)] = 2 * darker > count;
-    }
-  });
-  return upward;
-}
-
 /// Throws Error(kInput) for a picture that is no error or no variance.
 void require_errors(const Image& image, std::string_view what) {
   if (image.pixel_count() == 0)
@@ -227,7 +202,6 @@ NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) 
     for (std::size_t i = 0; i < mean.values().size(); ++i)
       deviation.values()[i] -= mean.values()[i];
   }
-  noise.upward = errs_upwards(mean, error);
   return {std::move(mean), std::move(noise)};
 }
 

@@ -30,7 +30,6 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "core/pixel_flags.hpp"
 
 namespace lobelia {
 
@@ -44,12 +43,10 @@ struct PictureNoise {
   /// Of each replicate but the last, its difference from the mean: their sum is less than that of the last one. How the
   /// channels of a pixel err together, and how heavy the tails are, is in them. Empty for noise of another source.
   std::vector<Image> deviations = {};
-  /// Besides them by pixel, 1 where the mean errs far more than around it, and upwards: of two replicates, the difference does
-  /// not say which one is wrong.
-  PixelFlags upward = {};
   /// The share of pixels with a firefly: an error of more than kFireflyFactor times those of all eight neighbours.
   double fireflies = 0;
 
+  bool has_heavy_tails() const;
   /// The squared standard errors of a pixel's three values, by its own replicates alone.
   double own_variance(std::size_t pixel) const;
   /// All its pictures, each of the size of the picture, 0 where it has no noise.
@@ -63,6 +60,7 @@ inline constexpr double kFewFreedom = 8;
 inline constexpr double kFireflyFactor = 6;
 /// From this share on the tails of the noise count as heavy.
 inline constexpr double kHeavyTails = 0.001;
+inline bool PictureNoise::has_heavy_tails() const { return fireflies >= kHeavyTails; }
 
 /// Degrees of freedom of the standard errors that `lobelia reference --standard-error` writes.
 inline constexpr double kFreedomOfErrors = 15;

@@ -36,10 +36,7 @@ class ReplicateDraw {
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t r = 0; r < weights.size(); ++r)
           more[c] += weights[r] * double(noise_.deviations[r].values()[3 * from + c]);
-      const bool is_turned =
-          !whole_picture_ && errs_upwards(from) && more[0] + more[1] + more[2] < 0;
-      for (std::size_t c = 0; c < 3; ++c)
-        row[3 * std::size_t(x) + c] += float((is_turned ? -scale_ : scale_) * more[c]);
+      for (std::size_t c = 0; c < 3; ++c) row[3 * std::size_t(x) + c] += float(scale_ * more[c]);
     }
   }
 
@@ -53,10 +50,6 @@ class ReplicateDraw {
       const float* const values = deviation.values().data() + 3 * pixel;
       return values[0] != 0 || values[1] != 0 || values[2] != 0;
     });
-  }
-
-  bool errs_upwards(std::size_t pixel) const {
-    return !noise_.upward.empty() && noise_.upward[pixel] != 0;
   }
 
   /// One of the noisy pixels around, itself among them.

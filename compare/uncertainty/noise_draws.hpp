@@ -5,8 +5,7 @@
 //               the mean of all, the same tails, and channels that err together as they do in the file (the wild
 //               bootstrap of C. F. J. Wu, "Jackknife, Bootstrap and Other Resampling Methods in Regression Analysis",
 //               Annals of Statistics 14, 1986, with balanced signs). Few replicates would give every draw errors of
-//               the same size; below nine, a pixel takes the deviations of a noisy one of the 3 x 3 around. A firefly
-//               stays bright: turned into a dark spot, it would hardly show on a dark surface.
+//               the same size; below nine, a pixel takes the deviations of a noisy one of the 3 x 3 around.
 // Errors:       standard errors alone say neither the tails nor what errs together. The draws are normal.
 // Together:     pixels that share their sample points take the same half everywhere, or the same normal number.
 // Expectation:  the hypothesis of equal pictures needs one picture that both are draws of. It is the mean of both,
