@@ -288,9 +288,9 @@ struct Candidate {
 };
 
 template <class Family>
-Candidate candidate(Family family, LobeFamily name, bool times_n_dot_l, LobeTerms terms,
+Candidate candidate(Family family, FittedFamily name, bool times_n_dot_l, LobeTerms terms,
                     bool shared) {
-  const bool cosine = name == LobeFamily::kPhong || name == LobeFamily::kBlinnPhong;
+  const bool cosine = name == FittedFamily::kPhong || name == FittedFamily::kBlinnPhong;
   const auto scale = [&](Place& place) {
     if (times_n_dot_l) place.scale *= place.n_dot_l;
     if (!cosine) place.scale /= place.n_dot_v;
@@ -369,7 +369,7 @@ Explained explain(std::span<const SeenLobe> pixels, bool shared, bool means) {
   Explained result{{}, terms(&SeenLobe::half_vector, &LobeNode::half_vector)};
   const LobeTerms reflection = terms(&SeenLobe::reflection, &LobeNode::reflection);
   for (const auto& [name, of] :
-       {std::pair{LobeFamily::kPhong, &reflection}, {LobeFamily::kBlinnPhong, &result.half}}) {
+       {std::pair{FittedFamily::kPhong, &reflection}, {FittedFamily::kBlinnPhong, &result.half}}) {
     Candidate plain = candidate(CosinePower{}, name, false, *of, shared);
     Candidate lit = candidate(CosinePower{}, name, true, *of, shared);
     const bool plain_is_better = plain.squares <= lit.squares || lit.family.fit.why_not.size() > 0;
@@ -380,9 +380,9 @@ Explained explain(std::span<const SeenLobe> pixels, bool shared, bool means) {
       add_doubt(better.family.fit, other.family.fit, 0.5);
     result.families.push_back(std::move(better));
   }
-  result.families.push_back(candidate(Ggx{}, LobeFamily::kGgx, false, result.half, shared));
+  result.families.push_back(candidate(Ggx{}, FittedFamily::kGgx, false, result.half, shared));
   result.families.push_back(
-      candidate(Beckmann{}, LobeFamily::kBeckmann, false, result.half, shared));
+      candidate(Beckmann{}, FittedFamily::kBeckmann, false, result.half, shared));
   std::ranges::stable_sort(result.families, {}, [](const Candidate& one) {
     return one.family.fit.why_not.empty() ? one.squares : kInfinity;
   });

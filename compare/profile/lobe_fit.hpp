@@ -65,7 +65,7 @@ inline constexpr std::size_t kFewestPixelsOfALobe = 9;
 LobeFit fit_cosine_lobe(std::span<const LobeSample> samples);
 
 /// Named by records::kLobeFamilies.
-enum class LobeFamily { kPhong, kBlinnPhong, kGgx, kBeckmann };
+enum class FittedFamily { kPhong, kBlinnPhong, kGgx, kBeckmann };
 
 /// A pixel of a highlight whose camera and light are known.
 struct SeenLobe {
@@ -90,7 +90,7 @@ enum class PixelsShow {
 };
 
 struct FamilyFit {
-  LobeFamily family{};
+  FittedFamily family{};
   bool times_n_dot_l = false;  ///< the variant that fits better; false for microfacets
   LobeFit fit;
   double noise_share = 0;  ///< rms of the residuals over that of the errors; NaN if unknown

@@ -39,7 +39,7 @@ records::LobeExplanation explanation_record(const FamilyFit& family) {
   record.times_n_dot_l = family.times_n_dot_l;
   record.because = family.fit.why_not;
   if (!family.fit.why_not.empty()) return record;
-  if (family.family == LobeFamily::kGgx || family.family == LobeFamily::kBeckmann) {
+  if (family.family == FittedFamily::kGgx || family.family == FittedFamily::kBeckmann) {
     record.alpha = family.fit.width;
     record.roughness = std::sqrt(family.fit.width);
   } else {

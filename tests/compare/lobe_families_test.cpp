@@ -58,12 +58,12 @@ std::vector<SeenLobe> phong(double n) {
 TEST(LobeFamilies, NameTheLobeThatMadeTheHighlight) {
   for (const double n : {30.0, 121.0, 400.0}) {
     const auto of_phong = explain_highlight(phong(n), false);
-    EXPECT_EQ(of_phong[0].family, LobeFamily::kPhong) << n;
+    EXPECT_EQ(of_phong[0].family, FittedFamily::kPhong) << n;
     EXPECT_NEAR(of_phong[0].fit.width, n, 1e-6 * n);
     EXPECT_FALSE(of_phong[0].times_n_dot_l);
     EXPECT_LT(of_phong[0].fit.residual, 1e-9);
     const auto of_blinn = explain_highlight(blinn_phong(n), false);
-    EXPECT_EQ(of_blinn[0].family, LobeFamily::kBlinnPhong) << n;
+    EXPECT_EQ(of_blinn[0].family, FittedFamily::kBlinnPhong) << n;
     EXPECT_NEAR(of_blinn[0].fit.width, n, 1e-6 * n);
     for (const auto& found : {of_phong, of_blinn})
       for (std::size_t k = 1; k < found.size(); ++k)
@@ -78,7 +78,7 @@ TEST(LobeFamilies, FindTheRoughnessOfMicrofacets) {
                             return ggx(normal, eye, light, half, alpha);
                           }),
                           false);
-    EXPECT_EQ(found[0].family, LobeFamily::kGgx);
+    EXPECT_EQ(found[0].family, FittedFamily::kGgx);
     EXPECT_NEAR(found[0].fit.width, alpha, 1e-6 * alpha);
     // D at its middle over 4, with the coefficient's cosines taken out.
     EXPECT_NEAR(found[0].fit.coefficient, 1 / (4 * kPi * alpha * alpha), 1e-4 / (alpha * alpha));
@@ -96,7 +96,7 @@ TEST(LobeFamilies, FindTheRoughnessOfMicrofacets) {
                  masking(dot(normal, light)) / (4 * v);
         }),
         false);
-    EXPECT_EQ(beckmann[0].family, LobeFamily::kBeckmann) << alpha;
+    EXPECT_EQ(beckmann[0].family, FittedFamily::kBeckmann) << alpha;
     EXPECT_NEAR(beckmann[0].fit.width, alpha, 2e-3 * alpha);
   }
 }
@@ -122,7 +122,7 @@ TEST(LobeFamilies, HaveErrorsThatHoldTheTruthAsOftenAsTheyShould) {
     int within = 0;
     for (int k = 0; k < kPictures; ++k)
       for (const FamilyFit& one : explain_highlight(noisy(exact, 0.02, known, random), false)) {
-        if (one.family != LobeFamily::kBlinnPhong) continue;
+        if (one.family != FittedFamily::kBlinnPhong) continue;
         within += std::abs(one.fit.width - 121) <= 2 * one.fit.standard_error;
         if (known) {
           EXPECT_NEAR(one.noise_share, 1, 0.05);
@@ -138,12 +138,12 @@ TEST(LobeFamilies, CannotBeToldApartInNoise) {
   const auto found = explain_highlight(noisy(blinn_phong(500), 0.2, true, random), false);
   EXPECT_EQ(found[0].apart, 0);
   EXPECT_LT(found[1].apart, kToldApart);
-  const auto family = [&](LobeFamily name) {
+  const auto family = [&](FittedFamily name) {
     return std::ranges::find(found, name, &FamilyFit::family)->apart;
   };
-  EXPECT_LT(family(LobeFamily::kBlinnPhong), kToldApart);
-  EXPECT_LT(family(LobeFamily::kBeckmann), kToldApart);
-  EXPECT_GT(family(LobeFamily::kGgx), kToldApart) << "its tail is another";
+  EXPECT_LT(family(FittedFamily::kBlinnPhong), kToldApart);
+  EXPECT_LT(family(FittedFamily::kBeckmann), kToldApart);
+  EXPECT_GT(family(FittedFamily::kGgx), kToldApart) << "its tail is another";
 }
 
 TEST(LobeFamilies, WithSharedNoiseHaveTheWorseError) {
