@@ -90,7 +90,9 @@ class FrontEnds : public ::testing::Test {
 void expect_same(const Answer& found, const Answer& wanted, bool in_memory) {
   if (!wanted.error.empty()) {
     // The names of the files are not those of arrays.
-    if (!in_memory) EXPECT_THAT(wanted.error, HasSubstr(found.error.substr(0, 150)));
+    if (!in_memory) {
+      EXPECT_THAT(wanted.error, HasSubstr(found.error.substr(0, 150)));
+    }
     EXPECT_NE(found.error, "");
     return;
   }
@@ -128,8 +130,9 @@ TEST_F(FrontEnds, JudgeEveryPairAlike) {
   }
   EXPECT_EQ(kinds.size(), 8u);
   for (const char* verdict : {"pass", "differs"}) EXPECT_EQ(verdicts.count(verdict), 1u);
-  if (int(pairs_.size()) == kPairs)
+  if (int(pairs_.size()) == kPairs) {
     EXPECT_THAT(verdicts, IsSupersetOf({"error", "non-finite", "same", "different", "undecided"}));
+  }
 }
 
 /// The figures and limits that the farm has are those of the command line, which has more.

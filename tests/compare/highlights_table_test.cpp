@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int kWidth = 160, kHeight = 120;
+constexpr int kTableWidth = 160, kTableHeight = 120;
 
 /// A highlight on even light, and a light of 3 x 3 pixels.
 struct Beside {
@@ -29,7 +29,7 @@ struct Beside {
   int light_x = 0, light_y = 0;
 
   Image with(double kept = 1, double right = 0) const {
-    return picture(kWidth, kHeight, [&](double x, double y) {
+    return picture(kTableWidth, kTableHeight, [&](double x, double y) {
       const bool in_light = std::abs(x - light_x - 0.5) < 1.6 && std::abs(y - light_y - 0.5) < 1.6;
       return in_light ? light : base + kept * spot(x - right, y);
     });
@@ -44,8 +44,8 @@ Beside random_case(std::mt19937& random, double light) {
   Beside made;
   const double width = std::exp(between(std::log(1.5), std::log(20.0)));
   const double margin = std::min(2.0 * width, 45.0);
-  made.spot = {between(margin, kWidth - margin),
-               between(margin, kHeight - margin),
+  made.spot = {between(margin, kTableWidth - margin),
+               between(margin, kTableHeight - margin),
                between(0.05, 4),
                width,
                width * between(0.5, 1),
@@ -54,8 +54,8 @@ Beside random_case(std::mt19937& random, double light) {
   made.base = random() % 2 == 0 ? 0 : made.spot.peak * between(0, 0.6);
   made.light = light * made.spot.peak;
   do {
-    made.light_x = 2 + int(random() % (kWidth - 4));
-    made.light_y = 2 + int(random() % (kHeight - 4));
+    made.light_x = 2 + int(random() % (kTableWidth - 4));
+    made.light_y = 2 + int(random() % (kTableHeight - 4));
   } while (std::hypot(made.light_x - made.spot.x, made.light_y - made.spot.y) < 2.5 * width + 4);
   return made;
 }
@@ -140,7 +140,7 @@ TEST(HighlightsTable, SaysWhatWasChanged) {
 TEST(HighlightsTable, NamesTheWorstFirst) {
   const Spot left{30, 60, 1, 4, 4}, middle{80, 60, 0.5, 4, 4}, right{130, 60, 0.3, 4, 4};
   const auto with = [&](double of_left, double of_middle, double of_right) {
-    return picture(kWidth, kHeight, [&](double x, double y) {
+    return picture(kTableWidth, kTableHeight, [&](double x, double y) {
       if (x < 3 && y < 3) return 9000.0;
       return of_left * left(x, y) + of_middle * middle(x, y) + of_right * right(x, y);
     });
@@ -171,7 +171,7 @@ TEST(HighlightsTable, HasNoAlarmForAUniformFactorWithinTheLimits) {
 
 /// Waves of several lengths, as of a texture, on a slope.
 Image texture(double phase) {
-  return picture(kWidth, kHeight, [&](double x, double y) {
+  return picture(kTableWidth, kTableHeight, [&](double x, double y) {
     return 0.3 + 0.002 * x + 0.2 * std::sin(0.9 * x + phase) * std::cos(1.1 * y) +
            0.1 * std::sin(0.13 * x + 0.21 * y) + 0.05 * std::sin(2.3 * x * y / 97);
   });
@@ -179,13 +179,14 @@ Image texture(double phase) {
 
 TEST(HighlightsTable, HasNoAlarmForTexturesAndSlopesThatHardlyDiffer) {
   for (const Image& reference :
-       {texture(0), texture(1.2), picture(kWidth, kHeight, [](double x, double) { return x; }),
-        picture(kWidth, kHeight, [](double x, double y) { return x * y; }),
+       {texture(0), texture(1.2),
+        picture(kTableWidth, kTableHeight, [](double x, double) { return x; }),
+        picture(kTableWidth, kTableHeight, [](double x, double y) { return x * y; }),
         fixtures::flat(40, 30, 0.2f, 0.4f, 0.1f), fixtures::flat(40, 30, 0, 0, 0)}) {
     ComparisonOptions options = on_highlights();
     options.limits.clear();
     options.default_limits = true;
-    for (const double factor : {0.99, 1, 1.01})
+    for (const double factor : {0.99, 1.0, 1.01})
       for (const LimitResult& limit :
            compare(each(reference, [&](double v) { return factor * v; }), reference, options)
                .limits)
@@ -200,7 +201,7 @@ TEST(HighlightsTable, HasNoAlarmForNoiseThatNobodyTold) {
     const Image clean = made.with();
     const auto noisy = [&](std::uint64_t of) {
       Image image = clean;
-      const Image noise = fixtures::noise(kWidth, kHeight, of, 1);
+      const Image noise = fixtures::noise(kTableWidth, kTableHeight, of, 1);
       for (std::size_t i = 0; i < image.values().size(); ++i)
         image.values()[i] = std::max(0.0f, image.values()[i] + 0.04f * (noise.values()[i] - 0.5f));
       return image;
@@ -250,9 +251,9 @@ TEST(HighlightsTable, BoundsItsWorkAndItsCount) {
 
 TEST(HighlightsTable, LooksOnlyWhereAHighlightMayLie) {
   const Beside made{{80, 60, 1, 9, 7}, 0, 800, 12, 12};
-  PixelFlags where(std::size_t(kWidth * kHeight));
+  PixelFlags where(std::size_t(kTableWidth * kTableHeight));
   for (int y = 30; y < 90; ++y)
-    for (int x = 40; x < 120; ++x) where[std::size_t(y * kWidth + x)] = 1;
+    for (int x = 40; x < 120; ++x) where[std::size_t(y * kTableWidth + x)] = 1;
   const auto found = find_highlights(made.with(), where);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].x, 79);

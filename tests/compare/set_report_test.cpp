@@ -98,14 +98,17 @@ TEST(SetOutcomes, HaveOneWordAndOneCountInEveryReport) {
   EXPECT_EQ(words.size(), 10u);
   for (const Problem& one : problems(report)) EXPECT_EQ(words.at(one.name), one.what) << one.name;
   for (const auto& row : read_csv(set_csv(report)))
-    if (words.contains(row[0]) && row[0] != "known.exr") EXPECT_EQ(words.at(row[0]), row[1]);
+    if (words.contains(row[0]) && row[0] != "known.exr") {
+      EXPECT_EQ(words.at(row[0]), row[1]);
+    }
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(set_junit(report, false).c_str()));
   const auto suite = document.child("testsuites").child("testsuite");
   EXPECT_EQ(suite.attribute("tests").as_uint(), words.size());
   for (const auto one : suite.children("testcase"))
-    if (const auto outcome = one.last_child(); outcome.attribute("type"))
+    if (const auto outcome = one.last_child(); outcome.attribute("type")) {
       EXPECT_EQ(words.at(one.attribute("name").as_string()), outcome.attribute("type").as_string());
+    }
   const records::SetSummary counts = count(report);
   EXPECT_EQ(counts.pairs, 5u);
   EXPECT_EQ(counts.known, 1u);

@@ -66,7 +66,7 @@ class DifferenceMaps : public ::testing::Test {
 };
 
 TEST_F(DifferenceMaps, AreOfEachComparisonUnderItsViewingCondition) {
-  change_viewing([](records::Viewing& viewing) { viewing = {-2.5, 40, {}, {}, {}}; });
+  change_viewing([](records::Viewing& viewing) { viewing = {-2.5, 40, {}, {}, {}, {}}; });
   publish();
   EXPECT_THAT(cell_data(), HasSubstr("povray.map.probe.js"));
   EXPECT_THAT(read_file(script(), 1 << 20), HasSubstr(R"("width":3,"height":2)"));
