@@ -344,7 +344,7 @@ void add_verify_profiles(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyProfilesArguments>();
   OptionGroup group(*command);
   group.add_number("--pictures", options->study.pictures, 1, 10000, "Pictures of each kind");
-  group.add_number("--seed", options->study.seed, 0, 4294967295.0, "Other pictures");
+  add_common(group, "--seed", options->study.seed, " of the pictures");
   group.add("--kind", options->study.only, "KIND", "This row of the table alone, by its name");
   group.add_flag("--markdown", options->markdown, "Print the table of docs/profiles.md");
   options->limits.add_to(group);

@@ -56,7 +56,9 @@ int count_of_judges(const ComparisonOptions& options) {
   std::set<std::string_view> judges;
   const auto add = [&](std::span<const MetricLimit> limits) {
     for (const MetricLimit& limit : limits)
-      judges.insert(find_metric(limit.metric)->needs == Needs::kNoise ? "z" : limit.metric);
+      judges.insert(find_metric(limit.metric)->needs == Needs::kNoise
+                        ? std::string_view("z")
+                        : std::string_view(limit.metric));
   };
   add(options.limits);
   if (options.default_limits) {

@@ -25,7 +25,7 @@ TEST(ComparisonRecord, HasEveryMetricThatNeedsNoAskingAndWhatWasAllowed) {
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
       EXPECT_EQ(record["metrics"].value(std::string(output.id), Json()).is_number(),
-                metric->needs != Needs::kNoise && !metric->on_request)
+                metric->needs != Needs::kNoise && !metric->on_request && !metric->layer)
           << output.id;
   EXPECT_EQ(
       record["tolerance"],
@@ -43,11 +43,15 @@ TEST(ComparisonRecord, OfPicturesWithNoiseSaysHowItWasTakenIntoAccount) {
   const Json record = as_json(comparison_record(compare(a, b, options), "a.exr", "b.exr"));
   EXPECT_EQ(record["verdict"], "undecided");
   const double tests = 3 * (48 * 48 + 24 * 24 + 12 * 12 + 6 * 6 + 3 * 3 + 2 * 2 + 1);
-  EXPECT_EQ(record["uncertainty"]["a"], (Json{{"freedom", 7.0}, {"shared", true}}));
+  EXPECT_EQ(record["uncertainty"]["a"],
+            (Json{{"freedom", 7.0}, {"shared", true}, {"fireflies", 0.0}, {"heavyTails", false}}));
   EXPECT_FALSE(record["uncertainty"].contains("b"));
   EXPECT_EQ(record["uncertainty"]["significance"], 0.02);
   EXPECT_EQ(record["uncertainty"]["tests"], tests);
-  EXPECT_NEAR(record["uncertainty"]["each"].get<double>(), 1 - std::pow(0.98, 1 / tests), 1e-12);
+  const double judges = 2 + double(default_limits().size()) + (options.limits.empty() ? 1 : 0);
+  EXPECT_EQ(record["uncertainty"]["judges"], judges);
+  EXPECT_NEAR(record["uncertainty"]["each"].get<double>(),
+              1 - std::pow(1 - 0.02 / judges, 1 / tests), 1e-12);
   EXPECT_EQ(record["uncertainty"]["bootstraps"], 8);
   EXPECT_EQ(record["uncertainty"]["seed"], 5);
   EXPECT_TRUE(record["metrics"]["z.max"].is_number());
