@@ -134,7 +134,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("shared", "its pixels err together");
     t.key("layer", "of the picture's own file, that says it").if_any();
     t.key("fireflies", "share of pixels that err more than six times as much as all around them")
-        .between(0, 1);
+        .at_least(0);
     t.key("heavyTails", "there are so many fireflies that the noise is far from normal");
   });
   tables.define<Uncertainty>("How the noise of the pictures was taken into account.", [](auto& t) {

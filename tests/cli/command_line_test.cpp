@@ -68,8 +68,8 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"verify"}, 2, "subcommand"},
       {{"verify", "papers"},
        2,
-       "unknown subcommand 'papers' of 'lobelia verify'; allowed: paper, stability, references; did "
-       "you mean 'paper'?"},
+       "unknown subcommand 'papers' of 'lobelia verify'; allowed: paper, stability, references, "
+       "verdicts, profiles, highlights; did you mean 'paper'?"},
       {{"farm", "stauts", "out"}, 2, "did you mean 'status'?"},
       {{"gallery", "sevre", "out"}, 2, "did you mean 'serve'?"},
       {{"farm", "status", "--josn", "-", "out"}, 2, "did you mean '--json'?"},

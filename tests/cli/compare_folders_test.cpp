@@ -119,7 +119,7 @@ TEST_F(CompareFolders, OrOnePairThatIsUnreadableIsToldToContinuousIntegration) {
       {"a/gone.exr", "b/x.exr", "--junit", "j.xml", "--json", "r.json", "--format", "github"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.output_tail, HasSubstr("::error title=gone.exr%3A error::a/gone.exr: not a"));
-  EXPECT_THAT(text("j.xml"), HasSubstr("<error type=\"not compared\""));
+  EXPECT_THAT(text("j.xml"), HasSubstr("<error type=\"error\""));
   EXPECT_FALSE(fs::exists(path("r.json")));
 }
 
@@ -144,8 +144,8 @@ TEST_F(CompareFolders, HaveOneRangeOfExposuresForTheWholeSet) {
 
 TEST_F(CompareFolders, ShowHowFarTwoReferencesAreFromEachOther) {
   put("a/x.exr", 0.10f), put("b/x.exr", 0.11f), put("c.exr", 0.13f);
-  const auto result =
-      compare({"a/x.exr", "b/x.exr", "--reference-floor", "c.exr", "--json", "one.json"});
+  const auto result = compare({"a/x.exr", "b/x.exr", "--reference-floor", "c.exr", "--metrics",
+                               "rmse", "--json", "one.json"});
   EXPECT_EQ(result.exit_code, 1) << "the second reference has no part in the verdict";
   EXPECT_THAT(result.output_tail, HasSubstr("C and B"));
   const auto record = json("one.json");
