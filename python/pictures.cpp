@@ -180,8 +180,9 @@ ArrayPicture picture_of(const py::object& object, const std::string& name) {
   const float* const from = values.data();
   const py::gil_scoped_release released;
   std::vector<float> codes;
+  constexpr float kOfCode = 1.0f / 255;  // as a PNG's are read: a quotient may be rounded otherwise
   if (are_codes)
-    for (py::ssize_t i = 0; i < values.size(); ++i) codes.push_back(from[i] / 255.0f);
+    for (py::ssize_t i = 0; i < values.size(); ++i) codes.push_back(from[i] * kOfCode);
   ArrayPicture made =
       as_read(are_codes ? codes.data() : from, int(width), int(height), channels, are_codes);
   made.masked = std::move(masked);
