@@ -240,7 +240,7 @@ ExitCode run_verify_verdicts(VerifyVerdictsArguments options) {
     options.measured.noises.push_back(
         verdicts::Noise(chosen_place(typed, "--noise", verdicts::kNoiseNames)));
   options.measured.pictures = options.pictures;
-  options.measured.blender = options.programs.of("blender");
+  options.measured.programs = options.programs.given();
   OutputFiles().writes_report(options.json);
   if (!options.plots.empty()) make_directories(options.plots);
   ProgressLine progress;
