@@ -6,6 +6,7 @@
 #include "cli/output_files.hpp"
 #include "compare/uncertainty/error_bars.hpp"
 #include "core/files.hpp"
+#include "farm/profile_scene.hpp"
 #include "records/record.hpp"
 #include "studies/agreement/report.hpp"
 #include "studies/highlights/table.hpp"
@@ -239,7 +240,7 @@ ExitCode run_verify_verdicts(VerifyVerdictsArguments options) {
     options.measured.noises.push_back(
         verdicts::Noise(chosen_place(typed, "--noise", verdicts::kNoiseNames)));
   options.measured.pictures = options.pictures;
-  options.measured.blender = options.programs.of("blender");
+  options.measured.programs = options.programs.given();
   OutputFiles().writes_report(options.json);
   if (!options.plots.empty()) make_directories(options.plots);
   ProgressLine progress;
@@ -332,7 +333,11 @@ ExitCode run_verify_profiles(const VerifyProfilesArguments& options) {
   if (!only.empty()) chosen_place(only, "--kind", names);
   ProgressLine progress;
   const auto rows = profile_study::measure(
-      options.study, [&](double done) { progress.show(done, "made pictures"); });
+      options.study,
+      [](const Scene& scene, const NamedImages& images) {
+        return profile_scene(scene, 0, 0, images, true);
+      },
+      [&](double done) { progress.show(done, "made pictures"); });
   progress.clear();
   write_reports(profile_study::report_text(rows, options.markdown), {});
   return profile_study::meets_goal(rows) ? ExitCode::kSuccess : ExitCode::kDiffers;

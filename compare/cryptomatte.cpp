@@ -4,56 +4,19 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "compare/mask.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/contained_reader.hpp"
 #include "core/text.hpp"
+#include "records/manifest.hpp"
 
 namespace lobelia {
 namespace {
 
 /// An object that covers less of a pixel may be missing there: coverage is rounded by half as much in half floats.
 constexpr float kLeastCoverage = 1e-3f;
-
-/// Takes the texts of an object, as long as they are nothing but texts.
-class ManifestNames : public nlohmann::json_sax<nlohmann::json> {
- public:
-  explicit ManifestNames(std::map<std::uint32_t, std::string>& names) : names_(names) {}
-  bool key(std::string& name) override {
-    constexpr std::size_t kLongest = 200;
-    name_ = name.substr(0, kLongest);
-    return true;
-  }
-  bool string(std::string& hash) override {
-    std::uint32_t id = 0;
-    const auto [end, error] = std::from_chars(hash.data(), hash.data() + hash.size(), id, 16);
-    if (is_open_ && error == std::errc() && end == hash.data() + hash.size())
-      names_.try_emplace(id, name_);
-    return is_open_;
-  }
-  bool start_object(std::size_t) override { return !std::exchange(is_open_, true); }
-  bool end_object() override { return false; }
-  bool start_array(std::size_t) override { return false; }
-  bool end_array() override { return false; }
-  bool null() override { return false; }
-  bool boolean(bool) override { return false; }
-  bool number_integer(number_integer_t) override { return false; }
-  bool number_unsigned(number_unsigned_t) override { return false; }
-  bool number_float(number_float_t, const string_t&) override { return false; }
-  bool binary(binary_t&) override { return false; }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {
-    return false;
-  }
-
- private:
-  std::map<std::uint32_t, std::string>& names_;
-  std::string name_;
-  bool is_open_ = false;
-};
 
 /// Whether both are names of one Cryptomatte, of which one may have a part's name before it.
 bool is_same_cryptomatte(const std::string& one, const std::string& other) {
@@ -138,13 +101,6 @@ std::string object_text(std::uint64_t id, const CoveredPixels& first, const Cove
 
 }  // namespace
 
-std::map<std::uint32_t, std::string> object_names(const std::string& manifest) {
-  std::map<std::uint32_t, std::string> names;
-  ManifestNames reader(names);
-  static_cast<void>(nlohmann::json::sax_parse(manifest, &reader));
-  return names;
-}
-
 std::optional<CryptomatteRank> cryptomatte_of(const PictureSource& a, const PictureSource& b,
                                               const ComparisonOptions& options) {
   constexpr std::size_t kChannels = 3;
@@ -181,7 +137,7 @@ CoveredPixels read_cryptomatte(const std::filesystem::path& file, const PictureS
     const PictureSource& read = colours.source;
     for (std::size_t i = 0; i < read.manifests.size() && result.names.empty(); ++i)
       if (is_same_cryptomatte(read.cryptomattes[i], rank.name))
-        result.names = object_names(read.manifests[i]);
+        result.names = records::object_names(read.manifests[i]);
     Image pairs =
         options.crop ? cut(std::move(colours.image), *options.crop) : std::move(colours.image);
     Image shares = options.crop && alpha.image.pixel_count() > 0

@@ -26,9 +26,6 @@ struct CoveredPixels {
   std::map<std::uint32_t, std::string> names;  ///< of objects, as far as the manifest has them
 };
 
-/// The names of objects by hash, of a manifest {"name": "hexadecimal hash", ...}. What follows a mistake is not read.
-std::map<std::uint32_t, std::string> object_names(const std::string& manifest);
-
 /// The Cryptomatte that both layers belong to, if all their channels were read and their type is kIdentifier.
 std::optional<CryptomatteRank> cryptomatte_of(const PictureSource& a, const PictureSource& b,
                                               const ComparisonOptions& options);

@@ -237,6 +237,8 @@ ImageMetadata reference_metadata(const Scene& scene, const records::Reference& r
 /// The catalogue of engines. Unknown names throw Error(kUsage). An empty `program` means the one in $PATH.
 std::span<const EngineInfo> engine_infos();
 const EngineInfo& engine_info(std::string_view name);
+/// The first engine with its own light transport; null if there is none.
+const EngineInfo* transport_engine();
 std::unique_ptr<Engine> make_engine(std::string_view name, const std::filesystem::path& program);
 /// Writes the engine's input files and a script that renders them without Lobelia into `directory`. The parts of an average
 /// go into directories setR-P: the mean over P is one estimate.

@@ -60,6 +60,12 @@ const CatalogueEntry& entry(std::string_view name) {
 
 std::span<const EngineInfo> engine_infos() { return kInfos; }
 
+const EngineInfo* transport_engine() {
+  const auto found =
+      std::ranges::find_if(kInfos, [](const EngineInfo& info) { return !info.transport.empty(); });
+  return found == kInfos.end() ? nullptr : &*found;
+}
+
 const EngineInfo& engine_info(std::string_view name) { return entry(name).info; }
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const std::filesystem::path& program) {

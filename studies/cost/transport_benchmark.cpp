@@ -90,10 +90,8 @@ void measure_ours(const Scene& scene, int seed, const Converged& truth, Directio
 class TransportEngine {
  public:
   explicit TransportEngine(const Options& options) {
-    const auto infos = engine_infos();
-    const auto info =
-        std::ranges::find_if(infos, [](const EngineInfo& i) { return !i.transport.empty(); });
-    if (info == infos.end()) {
+    const EngineInfo* const info = transport_engine();
+    if (!info) {
       title = "an engine";
       why_not = "no engine traces light by itself";
       return;

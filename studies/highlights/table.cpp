@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compare/compare.hpp"
+#include "studies/table.hpp"
 
 namespace lobelia::highlights {
 namespace {
@@ -104,24 +105,24 @@ std::vector<Row> measure_table(const std::function<void(double)>& on_progress) {
 }
 
 std::string table_text(const std::vector<Row>& rows) {
-  std::string text = "The highlight beside a light of so many times its peak:\n\n";
-  text += fmt::format("  {:<22}{:<18}", "highlight", "change");
-  for (const double light : kLights) text += fmt::format("{:>9}", light);
-  text += "\n";
+  studies::Table table;
+  table.columns = {{"highlight", -22, "{}", 2}, {"change", -18}};
+  for (const double light : kLights) table.columns.push_back({fmt::format("{}", light), 9});
   std::size_t wrong = 0;
   for (const Row& row : rows) {
-    text += fmt::format("  {:<22}{:<18}", row.scene, row.change);
+    std::vector<studies::Cell> cells{row.scene, row.change};
     for (const bool differs : row.differs) {
       wrong += differs != row.should_differ;
-      text += fmt::format("{:>9}", differs == row.should_differ ? (differs ? "found" : "pass")
-                                   : differs                    ? "FALSE"
-                                                                : "MISSED");
+      cells.push_back(differs == row.should_differ ? (differs ? "found" : "pass")
+                      : differs                    ? "FALSE"
+                                                   : "MISSED");
     }
-    text += "\n";
+    table.rows.push_back(std::move(cells));
   }
-  text += wrong == 0 ? "\nNothing is missed, and rounding is no difference.\n"
-                     : fmt::format("\n{} cells are wrong.\n", wrong);
-  return text;
+  return "The highlight beside a light of so many times its peak:\n\n" +
+         studies::table_text(std::move(table)) +
+         (wrong == 0 ? "\nNothing is missed, and rounding is no difference.\n"
+                     : fmt::format("\n{} cells are wrong.\n", wrong));
 }
 
 bool are_right(const std::vector<Row>& rows) { return std::ranges::all_of(rows, &Row::is_right); }

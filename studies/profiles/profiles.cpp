@@ -6,15 +6,14 @@
 #include <cmath>
 
 #include "compare/profile/blob.hpp"
-#include "farm/profile_scene.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::profile_study {
 namespace {
 
-void measure_scene(const MadeScene& made, Row& row) {
-  const records::Profile profile = profile_scene(made.scene, 0, 0, {{"made", &made.image}}, true);
+void measure_scene(const MadeScene& made, const ProfileOfScene& profile_of, Row& row) {
+  const records::Profile profile = profile_of(made.scene, {{"made", &made.image}});
   const auto& explanations = records::find(profile.images, "made")->highlight->explanations;
   const auto one = std::ranges::find(explanations, made.family, &records::LobeExplanation::family);
   Tally& tally = row.figures["lobe"];
@@ -85,7 +84,8 @@ double Row::share() const {
   return all > 0 ? double(within) / all : 0;
 }
 
-std::vector<Row> measure(const Options& options, const std::function<void(double)>& show) {
+std::vector<Row> measure(const Options& options, const ProfileOfScene& profile_of,
+                         const std::function<void(double)>& show) {
   std::vector<Row> rows;
   unsigned number = 0;
   for (const Kind& kind : kinds()) {
@@ -97,7 +97,7 @@ std::vector<Row> measure(const Options& options, const std::function<void(double
     row.kind = kind.name;
     for (int k = 0; k < options.pictures; ++k) {
       if (kind.with_scene)
-        measure_scene(make_scene(kind, random), row);
+        measure_scene(make_scene(kind, random), profile_of, row);
       else
         measure_blob(make_blob(kind, random), kind.clipped, row);
       ++row.pictures;

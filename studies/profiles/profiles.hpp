@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "compare/profile/profile.hpp"
+#include "records/profile.hpp"
+#include "renderer/scene/scene.hpp"
+
 namespace lobelia::profile_study {
 
 /// Of one figure in all pictures of a kind.
@@ -41,9 +45,13 @@ struct Options {
   std::string only = {};  ///< the kind of this name; empty: all
 };
 
+/// Gives the thorough profile of the first light on the scene's first sphere, in these pictures.
+using ProfileOfScene = std::function<records::Profile(const Scene&, const NamedImages&)>;
+
 /// `show` is called with the share that is done, from one thread. Pictures are measured on several threads; the result does
 /// not depend on them.
-std::vector<Row> measure(const Options& options, const std::function<void(double)>& show);
+std::vector<Row> measure(const Options& options, const ProfileOfScene& profile_of,
+                         const std::function<void(double)>& show);
 
 std::string report_text(const std::vector<Row>& rows, bool markdown);
 bool meets_goal(const std::vector<Row>& rows);

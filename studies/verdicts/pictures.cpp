@@ -71,7 +71,14 @@ Scene scene_of(const Cell& cell, std::uint64_t seed) {
 
 }  // namespace
 
-Cycles::Cycles(const std::filesystem::path& program) : engine_(make_engine("blender", program)) {
+Cycles::Cycles(const std::map<std::string, std::filesystem::path>& programs) {
+  const EngineInfo* const info = transport_engine();
+  if (!info) {
+    why_not_ = "no engine traces light by itself";
+    return;
+  }
+  const auto given = programs.find(std::string(info->name));
+  engine_ = make_engine(info->name, given == programs.end() ? "" : given->second);
   const EngineStatus& status = engine_->status();
   why_not_ = status.why;
   if (!status.available()) return;

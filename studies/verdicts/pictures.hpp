@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -35,8 +37,8 @@ struct Cell {
 /// Renders the cells of kCycles, in one process, one picture at a time.
 class Cycles {
  public:
-  /// Where Blender is absent, why_not() says so.
-  explicit Cycles(const std::filesystem::path& program);
+  /// Takes the engine with its own light transport, from `programs` if that has it. Where it is absent, why_not() says so.
+  explicit Cycles(const std::map<std::string, std::filesystem::path>& programs);
   ~Cycles();
   const std::string& why_not() const { return why_not_; }
   Image render(const Cell& cell, std::uint64_t seed);

@@ -85,7 +85,7 @@ class Measurement {
     result.seeds = options_.seeds;
     result.bootstraps = judged_.noise->bootstraps;
     if (std::ranges::count(cells_, Noise::kCycles, &Cell::noise) > 0) {
-      cycles_ = std::make_unique<Cycles>(options_.blender);
+      cycles_ = std::make_unique<Cycles>(options_.programs);
       if (!cycles_->why_not().empty()) {
         result.left_out = cycles_->why_not();
         std::erase_if(cells_, [](const Cell& cell) { return cell.noise == Noise::kCycles; });

@@ -13,10 +13,10 @@ namespace lobelia::verdicts {
 struct Options {
   int seeds = 20;  ///< pairs of each cell
   double significance = 0.01;
-  int bootstraps = 0;             ///< 0: as `lobelia compare` has them
-  bool small = false;             ///< two cells of each kind, without an engine
-  std::vector<Noise> noises;      ///< these alone; empty: all
-  std::filesystem::path blender;  ///< empty: the one in $PATH
+  int bootstraps = 0;         ///< 0: as `lobelia compare` has them
+  bool small = false;         ///< two cells of each kind, without an engine
+  std::vector<Noise> noises;  ///< these alone; empty: all
+  std::map<std::string, std::filesystem::path> programs;  ///< by engine; otherwise those in $PATH
   /// Where the pairs are written, so that another judge can have them: NOISE-SIZE-SAMPLES-PICTURES/b1/SEED.exr, b2 and so on
   /// for the reference, and CHANGE/a1/SEED.exr and so on. Empty: nowhere.
   std::filesystem::path pictures;

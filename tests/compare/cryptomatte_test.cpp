@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "compare/layer_sensitivity.hpp"
+#include "records/manifest.hpp"
 #include "tests/compare/layer_files.hpp"
 
 namespace lobelia {
@@ -204,12 +205,13 @@ TEST_F(Cryptomatte, IsComparedWithHostileMetadata) {
 }
 
 TEST(Manifests, AreReadUpToTheirFirstMistake) {
-  const auto names = object_names(R"({"a": "00000001", "\t\u00e9": "ff", "c": 3, "d": "04"})");
+  const auto names =
+      records::object_names(R"({"a": "00000001", "\t\u00e9": "ff", "c": 3, "d": "04"})");
   EXPECT_EQ(names.size(), 2u);
   EXPECT_EQ(names.at(1), "a");
   EXPECT_EQ(names.at(255), "\té");
-  EXPECT_TRUE(object_names("").empty());
-  EXPECT_TRUE(object_names("\"deadbeef\"").empty());
+  EXPECT_TRUE(records::object_names("").empty());
+  EXPECT_TRUE(records::object_names("\"deadbeef\"").empty());
 }
 
 TEST_F(Cryptomatte, ComparesOnlyThePartThatCounts) {

@@ -6,17 +6,27 @@
 #include <cmath>
 #include <set>
 
+#include "farm/profile_scene.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "tests/more_samples.hpp"
 
 namespace lobelia::profile_study {
 namespace {
 
+std::vector<Row> measured(const Options& options) {
+  return measure(
+      options,
+      [](const Scene& scene, const NamedImages& images) {
+        return profile_scene(scene, 0, 0, images, true);
+      },
+      [](double) {});
+}
+
 TEST(ProfilesStudy, FindsTheTruthWithinTwoErrorsInEveryKind) {
   Options options;
   options.pictures = 6 * more_samples();
   options.seed = 20261130;
-  for (const Row& row : measure(options, [](double) {})) {
+  for (const Row& row : measured(options)) {
     int figures = 0;
     for (const auto& [name, tally] : row.figures) figures += tally.figures + tally.missing;
     ASSERT_GE(figures, options.pictures) << row.kind;
@@ -30,16 +40,15 @@ TEST(ProfilesStudy, MakesTheSamePicturesOfASeed) {
   Options one;
   one.pictures = 2;
   one.only = std::string(kinds().back().name);
-  const Row alone = measure(one, [](double) {}).front();
+  const Row alone = measured(one).front();
   EXPECT_EQ(alone.kind, one.only);
   EXPECT_EQ(alone.pictures, 2);
   // Another seed, other pictures.
   one.seed = 2;
-  const Row other = measure(one, [](double) {}).front();
+  const Row other = measured(one).front();
   EXPECT_NE(alone.figures.at("peak").worst, other.figures.at("peak").worst);
   one.seed = 1;
-  EXPECT_EQ(alone.figures.at("peak").worst,
-            measure(one, [](double) {}).front().figures.at("peak").worst);
+  EXPECT_EQ(alone.figures.at("peak").worst, measured(one).front().figures.at("peak").worst);
 }
 
 TEST(ProfilesStudy, CountsWhatIsMissingAsMissed) {
