@@ -144,7 +144,7 @@ void add_standouts(const Maximum& maximum, float least, std::vector<Standout>& s
     return double(scale < maximum.scales ? maximum.level[scale] : maximum.end);
   };
   double top = double(maximum.top);
-  std::size_t scale = 1, found = 0;
+  std::size_t scale = 1, found = 0, start = 0;
   for (; found < kMostBases && top > double(least); ++scale) {
     while (scale < maximum.scales &&
            !(level(scale) - level(scale + 2) < kPlateau * (top - level(scale))))
@@ -154,9 +154,13 @@ void add_standouts(const Maximum& maximum, float least, std::vector<Standout>& s
     if (top - base >= kLeastHeight * top) {
       std::size_t core = 0;
       while (core + 1 < maximum.scales && level(core + 1) >= (top + base) / 2) ++core;
-      standouts.push_back({maximum.cell, top, base, std::ldexp(top - base, int(core))});
+      // The tail of the highlight above falls at once; a broader highlight does not.
+      if (found == 0 || core > start) {
+        standouts.push_back({maximum.cell, top, base, std::ldexp(top - base, int(core))});
+        ++found;
+      }
       top = base;
-      ++found;
+      start = scale + 1;
     }
     if (ends) return;
   }
@@ -224,7 +228,7 @@ std::vector<PixelRun> runs_of(const Image& image, std::span<const std::uint8_t> 
 void add_sums(const Image& image, LocalHighlight& highlight) {
   // Judged by its height alone, a shallow highlight would differ where its surroundings hardly do.
   constexpr double kLeastShare = 0.4;
-  double light = 0, all = 0, x = 0, y = 0;
+  double light = 0, all = 0, x = 0, y = 0, carried = 0;
   highlight.count = 0;
   highlight.peak = 0;
   for_pixels(highlight.pixels, image.width(), [&](std::size_t pixel, int column, int row) {
@@ -237,10 +241,12 @@ void add_sums(const Image& image, LocalHighlight& highlight) {
     ++highlight.count;
     all += radiance;
     light += over;
+    carried += std::max(0.0, radiance - std::max(highlight.top, highlight.skirt));
     x += over * column;
     y += over * row;
   });
-  if (!(light > 0)) return;
+  // One whose light is mostly that of a narrower highlight would be judged by that.
+  if (!(carried <= light / 2) || !(light > 0)) return;
   highlight.centre_x = x / light;
   highlight.centre_y = y / light;
   highlight.light = std::max(light, kLeastShare * all);
@@ -296,6 +302,7 @@ std::vector<LocalHighlight> find_highlights(const Image& reference,
   for (const Standout& standout : standouts) {
     if (highlights.size() == kMostHighlights || flood.has_worked_enough()) break;
     LocalHighlight highlight;
+    highlight.top = standout.top;
     highlight.base = standout.base;
     const double height = standout.top - standout.base;
     highlight.skirt = standout.base + kSkirt * height;

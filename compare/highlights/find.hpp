@@ -5,7 +5,8 @@
 // Formula:      from each maximum downward, the connected pixels above a level are counted. Where their number grows
 //               four times while the level hardly falls, there is the maximum's base: the light of its surroundings.
 //               Without such a level the base is the saddle to a higher maximum, or 0. Below a base the search goes on:
-//               a broad highlight may carry a narrow one. Height is peak less base.
+//               a broad highlight may carry a narrow one. Height is peak less base; of a broad one, the narrow
+//               one's base takes the place of the peak.
 //               pixels  those that connect to the peak above base + kSkirt * height
 //               core    those of them above base + height / 2
 //               ring    some of those beyond, between 1.3 and 2.5 of their radius, within height / 4 of the base
@@ -40,6 +41,7 @@ struct PixelRun {
 struct LocalHighlight {
   int x = 0, y = 0;  ///< the brightest pixel
   double peak = 0, base = 0;
+  double top = 0;    ///< below `peak` if a narrower highlight lies on this one, which begins there
   double skirt = 0;  ///< the level that bounds `pixels`
   std::vector<PixelRun> pixels, core;
   std::vector<std::uint32_t> ring;    ///< pixels around it, with light near the base
@@ -51,7 +53,7 @@ struct LocalHighlight {
   /// How far noise, rounding and the roughness of the picture may move the three figures.
   double energy_slack = 0, width_slack = 0, shift_slack = 0;
 
-  double height() const { return peak - base; }
+  double height() const { return top - base; }
 };
 
 /// What may move the figures of a highlight although nothing differs.
