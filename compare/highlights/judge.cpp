@@ -14,6 +14,8 @@ namespace {
 
 /// A highlight with less of its light is gone.
 constexpr double kGone = 0.1;
+/// Less is left of no widening, or noise would be taken for one.
+constexpr double kLeastLeft = 0.5;
 
 /// Sums of a field over pixels: plain, times x, times y, times the squared distance from the centre.
 struct Moments {
@@ -27,23 +29,34 @@ struct Moments {
   }
 };
 
-/// The median of a - b over the ring, of each channel; 0 of too few pixels.
-std::array<double, 3> change_around(const Image& a, const Image& b,
-                                    const LocalHighlight& highlight) {
+/// Medians over the ring.
+struct Surroundings {
+  double level = 0;                ///< of b's radiance
+  std::array<double, 3> change{};  ///< of a - b, of each channel
+};
+
+/// Of a ring of too few pixels, the base and no change.
+Surroundings surroundings_of(const Image& a, const Image& b, const LocalHighlight& highlight) {
   constexpr std::size_t kFewest = 16;
-  std::array<double, 3> change{};
-  if (highlight.ring.size() < kFewest) return change;
-  std::vector<double> differences(highlight.ring.size());
-  const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
+  Surroundings around{.level = highlight.base};
+  if (highlight.ring.size() < kFewest) return around;
+  std::vector<double> values(highlight.ring.size());
+  const auto median = [&] {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  std::ranges::transform(highlight.ring, values.begin(),
+                         [&](std::uint32_t pixel) { return radiance_at(b, pixel); });
+  around.level = median();
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < differences.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
       const std::size_t value = 3 * std::size_t(highlight.ring[i]) + c;
-      differences[i] = double(a.values()[value]) - double(b.values()[value]);
+      values[i] = double(a.values()[value]) - double(b.values()[value]);
     }
-    std::nth_element(differences.begin(), middle, differences.end());
-    change[c] = *middle;
+    around.change[c] = median();
   }
-  return change;
+  return around;
 }
 
 double energy_error(const Image& a, const Image& b, const std::array<double, 3>& around,
@@ -69,24 +82,31 @@ double LocalErrors::badness() const {
 
 LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight& highlight) {
   LocalErrors errors;
-  const std::array<double, 3> around = change_around(a, b, highlight);
+  const auto& [level, around] = surroundings_of(a, b, highlight);
   errors.energy = energy_error(a, b, around, highlight);
   errors.energy_beyond = beyond(std::abs(errors.energy), highlight.energy_slack);
-  // Each over its base.
-  Moments in_a, in_b;
-  const double base_of_a = highlight.base + (around[0] + around[1] + around[2]) / 3;
+  // Each over the light around it: a part of the tail is in that, which dims with the highlight.
+  Moments in_a, in_b, over_skirt;
+  const double level_of_a = level + (around[0] + around[1] + around[2]) / 3;
   for_pixels(highlight.pixels, b.width(), [&](std::size_t pixel, int x, int y) {
     const double dx = x - highlight.centre_x, dy = y - highlight.centre_y;
-    in_a.add(radiance_at(a, pixel) - base_of_a, dx, dy);
-    in_b.add(radiance_at(b, pixel) - highlight.base, dx, dy);
+    in_a.add(radiance_at(a, pixel) - level_of_a, dx, dy);
+    over_skirt.add(radiance_at(b, pixel) - highlight.skirt, dx, dy);
+    in_b.add(radiance_at(b, pixel) - level, dx, dy);
   });
   errors.gone = !(in_a.sum > kGone * in_b.sum);
   if (errors.gone) return errors;
   const double scale = in_b.sum / in_a.sum;
-  const double wider =
-      highlight.spread > 0 ? (scale * in_a.spread - in_b.spread) / highlight.spread : 0;
-  errors.width = std::sqrt(std::max(0.0, 1 + wider)) - 1;
-  errors.width_beyond = beyond(std::abs(errors.width), highlight.width_slack);
+  // Of a small widening the pixels lose some over their edge, and the scaling takes back a part of the rest: the share
+  // that is left is known from b.
+  const double left = 2 - over_skirt.sum * in_b.spread / (in_b.sum * over_skirt.spread);
+  const double of_change = highlight.spread * std::clamp(left, kLeastLeft, 1.0);
+  if (of_change > 0) {
+    const double wider = (scale * in_a.spread - in_b.spread) / of_change;
+    errors.width = std::sqrt(std::max(0.0, 1 + wider)) - 1;
+    errors.width_beyond =
+        beyond(std::abs(errors.width), highlight.width_slack * highlight.spread / of_change);
+  }
   errors.shift_x = (scale * in_a.x - in_b.x) / highlight.light;
   errors.shift_y = (scale * in_a.y - in_b.y) / highlight.light;
   errors.shift_beyond = beyond(std::hypot(errors.shift_x, errors.shift_y), highlight.shift_slack);

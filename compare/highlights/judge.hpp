@@ -3,15 +3,16 @@
 // Source:       ours.
 // Formula:      with b the reference and a the judged picture, over the pixels that find.hpp says, which noise in a does not
 //               choose:
-//               base    of a: that of b, and the median of a - b over the ring. So a change of the surroundings is none of the
-//                       highlight.
-//               energy  sum of a - b over the core, each over its base, of the channel in which it is the largest, divided
+//               level   of b: its median over the ring; of a: that, and the median of a - b over the ring. So a change of the
+//                       surroundings is none of the highlight, and the part of its tail that lies there dims with it.
+//               energy  sum of a - b over the core, each over its level, of the channel in which it is the largest, divided
 //                       by that of b; for a shallow highlight by 0.4 of its whole light.
 //               width   root of the ratio of second moments about b's centre, less 1, after a was scaled to the energy of
-//                       b over the base.
+//                       b over the level. The pixels stay the same, so a widening moves less than all of it into the
+//                       ratio; it is divided by the share that a small one does.
 //               shift   difference of first moments, likewise.
-//               All sums are linear in a, so noise in a moves them to neither side. The moments are over the level that
-//               bounds the pixels, which makes them exact for small changes. A highlight with less than a tenth of its
+//               All sums are linear in a, so noise in a moves them to neither side. Shifts are divided by the light over
+//               the level that bounds the pixels, which makes them exact for small ones. A highlight with less than a tenth of its
 //               light is gone: its energy says so, and width and shift are 0.
 // Beyond:       what exceeds the slack of the highlight (slack.hpp).
 #pragma once
