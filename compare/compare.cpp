@@ -356,7 +356,11 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
       highlights = find_highlights(b, options.surfaces,
                                    {options.noise ? &noise : nullptr, options.rounding});
     if (need_display(list)) result.viewing = with_exposures(options.viewing, peaks, b, highlights);
-    if (!find_each) highlights.clear();
+    if (find_each)
+      add_highlights_of_a(a, b, options.surfaces,
+                          {options.noise ? &noise : nullptr, options.rounding}, highlights);
+    else
+      highlights.clear();
     result.highlights = highlights_record(judge_highlights(a, b, highlights));
     Viewing viewing = result.viewing;
     if (!need_display(list)) viewing.display = nullptr;

@@ -104,13 +104,15 @@ void define_comparison_tables(Tables& tables) {
     t.key("shareOfPeak", "a value of the pixel is at least this share of its picture's brightest")
         .between(0, 1);
   });
-  tables.define<LocalHighlight>("A highlight of b, and its errors in a.", [](auto& t) {
+  tables.define<LocalHighlight>("A highlight of b, or of a alone; its errors.", [](auto& t) {
     t.keys({"x", "y"}).unit("pixels");
     t.key("peak", "radiance of its brightest pixel, which is at x, y");
     t.key("base", "radiance around it");
     t.key("pixels", "that connect to the peak, above a twentieth of its height").at_least(1);
     t.key("gone", "a has less than a tenth of its light; width and shift are 0");
-    t.key("energy", "a / b - 1, over its surroundings");
+    t.key("onlyInA", "b has less than a tenth of its light; width and shift are 0");
+    t.key("energy",
+          "a / b - 1, over its surroundings; of one that only a has, the share that b lacks");
     t.key("width", "a / b - 1");
     t.keys({"shiftX", "shiftY"}).unit("pixels");
     t.key("excess",

@@ -81,12 +81,12 @@ struct HighlightRegion {
   double share_of_peak = 0;
 };
 
-/// A highlight of the reference, judged by itself.
+/// A highlight of the reference, judged by itself, or one that it lacks.
 struct LocalHighlight {
   int x = 0, y = 0;
   double peak = 0, base = 0;
   std::int64_t pixels = 0;
-  bool gone = false;
+  bool gone = false, only_in_a = false;
   double energy = 0, width = 0, shift_x = 0, shift_y = 0, excess = 0;
 };
 

@@ -39,7 +39,8 @@ struct PixelRun {
 
 /// Radiance is the mean of R, G and B. Places are in pixels; the middle of the first pixel is (0, 0).
 struct LocalHighlight {
-  int x = 0, y = 0;  ///< the brightest pixel
+  int x = 0, y = 0;        ///< the brightest pixel
+  bool only_in_a = false;  ///< of the judged picture; see add_highlights_of_a()
   double peak = 0, base = 0;
   double top = 0;    ///< below `peak` if a narrower highlight lies on this one, which begins there
   double skirt = 0;  ///< the level that bounds `pixels`

@@ -71,6 +71,11 @@ double energy_error(const Image& a, const Image& b, const std::array<double, 3>&
          highlight.energy;
 }
 
+bool holds(std::span<const PixelRun> runs, int x, int y) {
+  return std::ranges::any_of(
+      runs, [&](const PixelRun& run) { return run.y == y && run.x <= x && x < run.end; });
+}
+
 double beyond(double size, double slack) { return std::max(0.0, size - slack); }
 
 }  // namespace
@@ -82,6 +87,12 @@ double LocalErrors::badness() const {
 
 LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight& highlight) {
   LocalErrors errors;
+  if (highlight.only_in_a) {
+    // As much as b lacks of it.
+    errors.energy = -energy_error(b, a, surroundings_of(b, a, highlight).change, highlight);
+    errors.energy_beyond = beyond(std::abs(errors.energy), highlight.energy_slack);
+    return errors;
+  }
   const auto& [level, around] = surroundings_of(a, b, highlight);
   errors.energy = energy_error(a, b, around, highlight);
   errors.energy_beyond = beyond(std::abs(errors.energy), highlight.energy_slack);
@@ -111,6 +122,21 @@ LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight
   errors.shift_y = (scale * in_a.y - in_b.y) / highlight.light;
   errors.shift_beyond = beyond(std::hypot(errors.shift_x, errors.shift_y), highlight.shift_slack);
   return errors;
+}
+
+void add_highlights_of_a(const Image& a, const Image& b, std::span<const std::uint8_t> where,
+                         const HighlightNoise& noise, std::vector<LocalHighlight>& highlights) {
+  const std::size_t of_b = highlights.size();
+  for (LocalHighlight& one : find_highlights(a, where, noise)) {
+    if (!judge_highlight(b, a, one).gone) continue;
+    const bool is_named =
+        std::ranges::any_of(std::span(highlights).first(of_b), [&](const LocalHighlight& other) {
+          return holds(one.core, other.x, other.y) && judge_highlight(a, b, other).badness() > 1;
+        });
+    if (is_named) continue;
+    one.only_in_a = true;
+    highlights.push_back(std::move(one));
+  }
 }
 
 std::vector<JudgedHighlight> judge_highlights(const Image& a, const Image& b,

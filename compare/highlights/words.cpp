@@ -16,6 +16,7 @@ std::string short_number(double value) {
 }
 
 std::string sentence_on(const records::LocalHighlight& one) {
+  if (one.only_in_a) return fmt::format("a has a highlight at ({}, {}) that b lacks", one.x, one.y);
   std::string text = name_of_highlight(one.x, one.y);
   if (one.gone) return text + " is gone";
   std::vector<std::string> parts;
@@ -43,8 +44,9 @@ std::vector<records::LocalHighlight> highlights_record(std::span<const JudgedHig
   std::vector<records::LocalHighlight> records;
   for (const auto& [highlight, errors] : judged.first(std::min(judged.size(), kMostInRecord)))
     records.push_back({highlight->x, highlight->y, highlight->peak, highlight->base,
-                       std::int64_t(highlight->count), errors.gone, errors.energy, errors.width,
-                       errors.shift_x, errors.shift_y, errors.badness()});
+                       std::int64_t(highlight->count), errors.gone, highlight->only_in_a,
+                       errors.energy, errors.width, errors.shift_x, errors.shift_y,
+                       errors.badness()});
   return records;
 }
 

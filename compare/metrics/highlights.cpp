@@ -3,7 +3,7 @@
 // Source:       ours.
 // Formula:      compare/highlights/find.hpp says which highlights there are, judge.hpp what their errors are. Each figure is
 //               the largest over all highlights, after what noise, rounding and the reference's roughness explain
-//               (slack.hpp) was taken off.
+//               (slack.hpp) was taken off. A highlight that the reference lacks has an error in energy of its own light.
 // Input:        scene-linear values, neither exposed nor clipped.
 // Why:          max_rel_peak and the figures of highlight.cpp are shares of the brightest pixel. Beside a light in view,
 //               another highlight may be missing without a trace in them.
@@ -30,7 +30,7 @@ constexpr MetricOutput kHighlightsOutputs[] = {
      "place of the worst highlight: its brightest pixel"},
     {"highlights.y", "", Unit::kPlain, Better::kNeither, false, "likewise, down"},
     {"highlights.count", "", Unit::kCount, Better::kNeither, false,
-     "highlights of the reference that were judged"}};
+     "highlights that were judged: those of the reference, and those that only a has"}};
 
 void measure_highlights(const MetricInput& input, std::span<double> values) {
   std::ranges::fill(values, 0);

@@ -137,7 +137,7 @@ struct MetricInput {
   const NoiseOfPair* noise = nullptr;  ///< null if neither picture is known to have noise
   /// By pixel, not 0 in the highlight, before it is grown; empty if it was not asked for.
   std::span<const std::uint8_t> highlight = {};
-  /// Those of the reference, each by itself; empty if they were not asked for.
+  /// Those of the reference, each by itself, and those that only a has; empty if they were not asked for.
   std::span<const LocalHighlight> highlights = {};
   std::vector<ShownPair> shown_further = {};  ///< at each exposure after the first
   bool equal = false;                         ///< every value of a is b's

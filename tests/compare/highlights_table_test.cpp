@@ -137,6 +137,26 @@ TEST(HighlightsTable, SaysWhatWasChanged) {
   EXPECT_GT(lines, 5);
 }
 
+TEST(HighlightsTable, SaysWhichOnesTheReferenceLacks) {
+  std::mt19937 random(60);
+  for (int round = 0; round < 40; ++round) {
+    const Beside made = random_case(random, 3000);
+    const Image with = made.with(), without = made.with(0);
+    const Comparison comparison = judged(with, without);
+    EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
+    const auto* line = line_of(comparison, made.spot);
+    ASSERT_TRUE(line) << made.spot.x << ", " << made.spot.y;
+    EXPECT_TRUE(line->only_in_a);
+    EXPECT_NEAR(line->energy, 1, 0.1);
+    EXPECT_EQ(sentences_on_highlights(comparison.highlights),
+              std::vector{"a has a highlight at (" + std::to_string(line->x) + ", " +
+                          std::to_string(line->y) + ") that b lacks"});
+    // One that both have is named once, however much brighter it is.
+    for (const records::LocalHighlight& one : judged(made.with(20), with).highlights)
+      EXPECT_FALSE(one.only_in_a) << one.x << ", " << one.y;
+  }
+}
+
 TEST(HighlightsTable, NamesTheWorstFirst) {
   const Spot left{30, 60, 1, 4, 4}, middle{80, 60, 0.5, 4, 4}, right{130, 60, 0.3, 4, 4};
   const auto with = [&](double of_left, double of_middle, double of_right) {
@@ -208,6 +228,9 @@ TEST(HighlightsTable, HasNoAlarmForNoiseThatNobodyTold) {
     };
     const Comparison comparison = judged(noisy(2 * seed), noisy(2 * seed + 1));
     EXPECT_EQ(comparison.verdict, Verdict::kPass) << why_not_pass(comparison, "a", "b");
+    // A clean reference tells nothing of the noise, and has no highlight less.
+    for (const records::LocalHighlight& one : judged(noisy(2 * seed), clean).highlights)
+      EXPECT_FALSE(one.only_in_a) << one.x << ", " << one.y;
     // The same noise hides no missing highlight.
     Image gone = made.with(0);
     EXPECT_EQ(judged(gone, noisy(2 * seed)).verdict, Verdict::kDiffers);
