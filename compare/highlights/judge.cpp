@@ -16,6 +16,9 @@ namespace {
 constexpr double kGone = 0.1;
 /// Less is left of no widening, or noise would be taken for one.
 constexpr double kLeastLeft = 0.5;
+/// Half of what a highlight of the reference may have: a pixel filter spreads noise, which then looks less rough, and the
+/// judged picture has more of it.
+constexpr double kMostSlackOfNew = 0.075;
 
 /// Sums of a field over pixels: plain, times x, times y, times the squared distance from the centre.
 struct Moments {
@@ -128,7 +131,7 @@ void add_highlights_of_a(const Image& a, const Image& b, std::span<const std::ui
                          const HighlightNoise& noise, std::vector<LocalHighlight>& highlights) {
   const std::size_t of_b = highlights.size();
   for (LocalHighlight& one : find_highlights(a, where, noise)) {
-    if (!judge_highlight(b, a, one).gone) continue;
+    if (one.energy_slack > kMostSlackOfNew || !judge_highlight(b, a, one).gone) continue;
     const bool is_named =
         std::ranges::any_of(std::span(highlights).first(of_b), [&](const LocalHighlight& other) {
           return holds(one.core, other.x, other.y) && judge_highlight(a, b, other).badness() > 1;

@@ -237,6 +237,38 @@ TEST(HighlightsTable, HasNoAlarmForNoiseThatNobodyTold) {
   }
 }
 
+/// With noise of 70 % of each pixel, and then a tent filter over 3 x 3 pixels.
+Image with_filtered_noise(const Image& clean, std::mt19937& random) {
+  std::gamma_distribution<double> factor(2.0, 0.5);
+  Image noisy = clean;
+  for (int y = 0; y < clean.height(); ++y)
+    for (int x = 0; x < clean.width(); ++x) {
+      const double by = factor(random);
+      for (float& value : noisy.pixel(x, y)) value = float(double(value) * by);
+    }
+  Image filtered = noisy;
+  for (int y = 1; y + 1 < clean.height(); ++y)
+    for (int x = 1; x + 1 < clean.width(); ++x)
+      for (std::size_t c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (const int j : {-1, 0, 1})
+          for (const int i : {-1, 0, 1})
+            sum += double(noisy.pixel(x + i, y + j)[c]) * (2 - std::abs(i)) * (2 - std::abs(j));
+        filtered.pixel(x, y)[c] = float(sum / 16);
+      }
+  return filtered;
+}
+
+TEST(HighlightsTable, TakesNoFilteredNoiseForAHighlightThatTheReferenceLacks) {
+  const Image clean = Beside{{80, 60, 1, 8, 8}, 0.2, 0.2, 12, 12}.with();
+  std::mt19937 random(61);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<LocalHighlight> highlights;
+    add_highlights_of_a(with_filtered_noise(clean, random), clean, {}, {}, highlights);
+    EXPECT_TRUE(highlights.empty()) << highlights.front().x << ", " << highlights.front().y;
+  }
+}
+
 TEST(HighlightsTable, HasNoAlarmForRounding) {
   std::mt19937 random(59);
   for (int round = 0; round < 20; ++round) {
