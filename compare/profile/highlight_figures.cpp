@@ -239,8 +239,8 @@ std::string why_elsewhere(const ProfileGeometry& geometry, const HighlightFigure
   const double pixels = (figures.along.pixels + figures.across.pixels) / 2;
   const double angle = (figures.along.angle + figures.across.angle) / 2;
   const double away = distance(figures.peak.place, geometry.middle);
-  // The cosine of the light moves a peak by less, and then a family fits.
-  constexpr double kAway = 0.25, kMisfit = 0.03, kOfNoise = 1.2;
+  // The cosine of the light moves a peak by less, and so does a texture.
+  constexpr double kAway = 0.75, kMisfit = 0.03, kOfNoise = 1.2;
   const double misfit = figures.explanations.front().fit.residual;
   if (!(away > kAway * pixels) || !(misfit > std::max(kMisfit, kOfNoise * noise))) return "";
   // Of the lobe's own angle there, unless the scene's peak is not at the angle 0.

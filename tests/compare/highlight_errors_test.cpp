@@ -78,10 +78,12 @@ std::array<double, kFigures> coverage(bool given, int draws) {
 void expect_coverage(bool given) {
   const auto within = coverage(given, 8 * more_samples());
   // 95.4 % are expected of a normal distribution; the spread of a share of 64 is 2.6 %, of 192 1.5 %. Of 64, all may be
-  // within by chance.
+  // within by chance. The error of the energy also has the method's own, so all may be within.
   for (std::size_t f = 0; f < kFigures; ++f) {
     EXPECT_GE(within[f], 0.88) << kNames[f];
-    EXPECT_LE(within[f], more_samples() == 1 ? 1 : 0.995) << kNames[f];
+    EXPECT_LE(within[f],
+              more_samples() == 1 || std::string_view(kNames[f]) == "energy" ? 1 + 1e-9 : 0.995)
+        << kNames[f];
   }
 }
 
