@@ -54,7 +54,7 @@ test('lists all pairs, the worst first, each with its pictures and a sentence', 
   assert.deepEqual(list.slice(2, 4).sort(), ['dim.exr', kHostile].sort());
   const dim = page.locator('.of-pairs li', { hasText: 'dim.exr' });
   assert.equal(await dim.locator('img').count(), 3, 'the reference, the other and their difference');
-  assert.match(await dim.locator('.finding').textContent(), /^mine's highlight is 10 % dimmer, its energy 10 % less$/);
+  assert.match(await dim.locator('.finding').textContent(), /^mine's highlight is 10 % dimmer, its energy 10 % less; the highlight at \(32, 21\) has 10 % less light$/);
   assert.match(await page.locator('.of-pairs li', { hasText: 'moved.exr' }).locator('.finding').textContent(), /3 pixels to the right/);
   for (const image of await page.locator('.of-pairs img').all()) await image.scrollIntoViewIfNeeded();
   await page.waitForFunction(() => [...document.querySelectorAll('.of-pairs img')].every((i) => i.complete && i.naturalWidth > 0));
