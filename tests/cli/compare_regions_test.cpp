@@ -34,8 +34,9 @@ TEST_F(CompareRegions, AMaskIsARectangleAPolygonAPictureOrAllOfThem) {
   const Record both =
       record({"a.exr", "b.exr", "--mask", "mask.exr", "--mask", "rect:30,30,9,9"}, 1);
   EXPECT_EQ(both["mask"]["pixels"], 36);
-  const ProcessResult limited = compare(
-      {"a.exr", "b.exr", "--mask", "mask.exr", "--fail", "mae.mask=0.25", "--no-default-limits"});
+  const ProcessResult limited =
+      compare({"a.exr", "b.exr", "--mask", "mask.exr", "--fail", "mae.mask=0.25",
+               "--no-default-limits", "--metrics", "mae"});
   EXPECT_EQ(limited.exit_code, 0);
   EXPECT_THAT(limited.output_tail, HasSubstr("in the mask"));
   EXPECT_THAT(compare({"a.exr", "b.exr", "--fail", "rmse.mask=1"}).output_tail,
