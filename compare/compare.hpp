@@ -20,7 +20,7 @@ struct NoiseOptions {
   std::uint64_t seed = 0;  ///< of their noise
 };
 
-/// What a user says that a layer is; `layer` as is_layer_called() has it.
+/// The type that the user gives a layer. `layer` is one of the names that is_layer_called() knows.
 struct LayerTypeChoice {
   std::string layer;
   LayerType type = LayerType::kColour;
@@ -57,12 +57,12 @@ struct ComparisonOptions {
   bool allow_equal_nonfinite = false;
   std::optional<NoiseOptions> noise = {};  ///< if set, the verdict is same, different or undecided
   std::vector<LayerTypeChoice> layer_types = {};  ///< of layers of files; see compare_pictures()
-  /// What is known of layers that are no colours, for their metrics; null for colours.
+  /// What the metrics of the layer's type need; null for a layer of colours.
   const LayerInput* layer = nullptr;
 };
 
-/// What is compared where a user chooses nothing: the default limits, the highlight's too, at an exposure that suits the
-/// pair. Everything that judges pictures begins with it.
+/// The options for a user who chooses none: all default limits, and an exposure that suits the pair. Everything that judges
+/// pictures begins with them.
 ComparisonOptions usual_options();
 
 /// The default limits on the whole picture, and on its highlight.
@@ -124,7 +124,8 @@ struct Comparison {
   std::optional<PixelWindow> crop;               ///< the part that was compared; if not, everything
   std::optional<std::int64_t> highlight_pixels;  ///< if it was asked for, and all values are finite
   double highlight_share = 0;                    ///< of all pixels, likewise
-  /// The reference's highlights, each judged by itself, the worst first; empty if they were not asked for.
+  /// The reference's highlights and those that only the judged picture has, each judged by itself, the worst first. Empty
+  /// if nobody asked for them.
   std::vector<records::LocalHighlight> highlights;
   std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
   /// How the noise was taken into account, if it was known and every value is finite.

@@ -18,7 +18,7 @@ namespace {
 
 using records::Fault;
 
-/// Of the values that tell a fault.
+/// The share of the values that may contradict a fault.
 constexpr double kMostOff = 0.01;
 
 /// The range of some values.

@@ -21,7 +21,7 @@
 
 namespace lobelia {
 
-/// Of two finite pictures of one size. At most one of each kind.
+/// The faults that tell two finite pictures of the same size apart, at most one of each kind.
 std::vector<records::Fault> find_faults(const Image& a, const Image& b);
 
 /// "a is clipped at 1 where b goes up to 12", with the names of the pictures.

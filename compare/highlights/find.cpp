@@ -124,7 +124,7 @@ std::vector<Maximum> maxima_of(const Cells& cells, float least) {
     while (taking.scales < kAreas && taking.area >> taking.scales != 0)
       taking.level[taking.scales++] = value;
   }
-  // What is left over ends in the dark, or with the picture.
+  // A maximum that meets no higher one ends at 0, or at the picture's darkest value if it covers the picture.
   for (std::uint32_t i = 0; i < maxima.size(); ++i)
     if (joined[i] == i)
       maxima[i].end =
@@ -266,7 +266,8 @@ void add_sums(const Image& image, LocalHighlight& highlight) {
     over_base += radiance - highlight.base;
     for (std::size_t c = 0; c < 3; ++c) channels[c] += double(image.values()[3 * pixel + c]);
   });
-  // Of a coloured light, the brightest channel is as much brighter than the mean in both.
+  // An error counts in the channel where it is largest. The brightest channel of a coloured light exceeds the mean by the
+  // same factor in the core and over the base.
   highlight.energy = std::max(over_base, kLeastShare * core) * (std::ranges::max(channels) / core);
 }
 

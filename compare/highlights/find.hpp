@@ -48,7 +48,7 @@ struct LocalHighlight {
   std::vector<std::uint32_t> ring;    ///< pixels around it, with light near the base
   std::size_t count = 0;              ///< of pixels
   double centre_x = 0, centre_y = 0;  ///< of the radiance over the skirt
-  /// What errors are divided by; see judge.hpp. Of the core's radiance, of that of all pixels, and of the latter times the
+  /// Errors are divided by these sums (judge.hpp): the radiance of the core, the radiance of all pixels, and that times the
   /// squared distance from the centre.
   double energy = 0, light = 0, spread = 0;
   /// How far noise, rounding and the roughness of the picture may move the three figures.

@@ -14,7 +14,8 @@
 
 namespace lobelia {
 
-/// Of a hundred highlights one is off by three standard errors; the errors themselves are estimates.
+/// Standard errors. More than the chance of one highlight asks for: a picture may have a hundred, and the errors themselves
+/// are estimates.
 inline constexpr double kSlack = 5;
 
 /// Whether the highlight stands out: its height is six errors of a pixel, and its energy is known to a seventh. Else the

@@ -456,7 +456,7 @@ TEST_F(CompareFolders, OfWhichNoReferenceHasARangeOfExposuresAreMeasuredWithoutH
   EXPECT_THAT(asked.output_tail, HasSubstr("flip.hdr.mean was not measured (b/x.exr: "));
 }
 
-TEST_F(CompareFolders, OfEqualBlackPicturesPassEveryLimit) {
+TEST_F(CompareFolders, PassEveryLimitWhereTheirPicturesAreEqualAndBlack) {
   for (const char* black : {"a/x.exr", "b/x.exr"}) write_exr(path(black), Image(20, 20), {});
   const auto result = compare({"a", "b", "--exposures", "auto", "--fail", "flip.hdr.mean=0",
                                "--fail", "ms_ssim=1", "--json", "set.json"});

@@ -122,7 +122,7 @@ TEST_F(ComparePictures, RefuseALimitBeyondTheRangeOfItsMetric) {
   EXPECT_EQ(compare({"grey.exr", "grey.exr", "--fail", "share_over.abs=0.004=10%"}).exit_code, 0);
 }
 
-TEST_F(ComparePictures, OfEqualBlackHaveTheBestValueOfEveryMetric) {
+TEST_F(ComparePictures, HaveTheBestValueOfEveryMetricWhereBothAreBlack) {
   exr("black.exr", 32, 32, {{"Y", std::vector<float>(32 * 32, 0.0f)}});
   const Record made = record({"black.exr", "black.exr", "--exposures", "auto", "--fail",
                               "flip.hdr.mean=0", "--fail", "ms_ssim=1"},
@@ -176,7 +176,7 @@ TEST_F(ComparePictures, OfBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
   }
 }
 
-TEST_F(ComparePictures, OfGreyAreRgbOfEqualValuesAndAnAlphaOfOneIsNone) {
+TEST_F(ComparePictures, EqualThoseOfRgbWhereTheyAreGreyOrHaveAnAlphaOfOne) {
   flat("rgb.exr", 0.25f);
   flat("rgba.exr", 0.25f, {channel("A", 1.0f)});
   exr("y.exr", 32, 32, {channel("Y", 0.25f)});

@@ -65,7 +65,7 @@ TEST_F(SystemFaults, AreSaidInOneLineWithThePath) {
   }
 }
 
-TEST_F(SystemFaults, OfEveryLookAtAnUnfinishedFileEndTheCommand) {
+TEST_F(SystemFaults, EndTheCommandWhereEveryLookAtAnUnfinishedFileFails) {
   expect_one_line(run_with("lstat", EIO, ".part",
                            "render -q \"$SCENES\"head_on.xml --width 32 --height 32 -o b.exr"),
                   4, "b.exr: cannot write: Input/output error");

@@ -65,7 +65,7 @@ TEST(NoiseDraws, KeepWhatChannelsOfReplicatesHaveInCommon) {
   }
 }
 
-TEST(NoiseDraws, OfStandardErrorsAreNormalAndTheirChannelsTogetherOrNot) {
+TEST(NoiseDraws, AreNormalForStandardErrorsWithChannelsTogetherOrApart) {
   const PictureNoise noise = fixtures::even_noise(kSide, kSide, 0.5f, 1e9);
   const Moments apart = moments(noise, Together::kNothing, 8),
                 together = moments(noise, Together::kChannels, 8);

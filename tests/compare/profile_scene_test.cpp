@@ -329,7 +329,7 @@ TEST(HighlightOfAScene, TellsMeansFromCentresWhenTheSceneDoesNot) {
   }
 }
 
-TEST(HighlightOfAScene, ThatIsElsewhereInThePictureIsNotFitted) {
+TEST(HighlightOfAScene, IsNotFittedWhereItLiesElsewhereInThePicture) {
   const Scene scene = scene_with("phong_rdf", 64);
   for (const double degrees : {0.0, 8.0, 15.0, 30.0}) {
     Scene turned = scene;
