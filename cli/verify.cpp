@@ -354,8 +354,9 @@ void add_verify_profiles(CLI::App& verify, ExitCode& exit_code) {
   group.add_flag("--markdown", options->markdown, "Print the table of docs/profiles.md");
   options->limits.add_to(group);
   command->footer(
-      "Pictures are made from formulas: of spheres with Phong, Blinn-Phong and GGX highlights, whose\n"
-      "exponent or alpha is then told with the scene, and of highlights on a background without one.\n"
+      "Pictures are made from formulas. Some are of spheres with Phong, Blinn-Phong and GGX highlights,\n"
+      "whose exponent or alpha is told with the scene. Others are of highlights on a background, and have\n"
+      "no scene.\n"
       "They have noise, few bits, a clipped peak, a pixel filter or a slope beneath. 95 % of the figures\n"
       "of each kind are to lie within two of their standard errors of the truth.\n"
       "docs/profiles.md has the outcome.\n"
