@@ -233,6 +233,8 @@ const MetricOutput* find_metric_output(std::string_view id) {
 }
 
 bool is_named(const Metric& metric, std::string_view name) {
+  // The list has the thresholds of other comparisons, too.
+  if (metric.threshold > 0) return find_metric(name) == &metric;
   if (name == "all") return true;
   if (metric.region != Region::kWhole && region_name(metric.region) == name)
     return !metric.on_request;

@@ -34,7 +34,7 @@ std::string why_not_measured(const Metric& metric, const MetricInput& input);
 
 /// Whether a name of --metrics means the metric: "all"; the id of an output, its beginning up to a dot or an equals sign
 /// ("flip.ldr", "relmse") or a family ("colour"), each of the whole picture; one of these with a region ("rmse.mask");
-/// or a region ("highlight").
+/// or a region ("highlight"). A threshold above 0 is meant by its id alone.
 bool is_named(const Metric& metric, std::string_view name);
 
 /// Why no limit on the output can have this value, with what to write instead; empty if one can. A signed error takes a limit

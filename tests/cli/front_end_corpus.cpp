@@ -174,7 +174,7 @@ class PairWriter {
   void write_noise() {
     pair_.kind = "noise";
     const Spot spot = any_spot(random_, 0.5, 500);
-    const double share = 0.02;
+    const double share = one_of(random_, 2) == 0 ? 0.02 : 0.0005;
     pair_.is_plain = true;
     write_exr_files(noisy(changed(spot, random_).image(), random_, share),
                     noisy(spot.image(), random_, share));

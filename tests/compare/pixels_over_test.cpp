@@ -166,5 +166,16 @@ TEST(MetricList, MeasuresWhatIsAskedAndWhatTheLimitsNeedWithTheSameValues) {
   EXPECT_FALSE(std::isnan(everything.value("code.max.highlight")));
 }
 
+TEST(MetricList, LacksTheThresholdsOfOtherComparisons) {
+  const Image a = fixtures::highlight(48, 40, 20, 3.0), b = fixtures::highlight(48, 40, 22, 3.1);
+  ComparisonOptions options;
+  options.metrics = {"share_over.code=00.1875"};
+  EXPECT_FALSE(std::isnan(compare(a, b, options).value("share_over.code=0.1875")));
+  for (const char* name : {"all", "share_over.code", "share_over.code=0", "default"}) {
+    options.metrics = {name};
+    EXPECT_TRUE(std::isnan(compare(a, b, options).value("share_over.code=0.1875"))) << name;
+  }
+}
+
 }  // namespace
 }  // namespace lobelia
