@@ -29,8 +29,10 @@ fs::path find_companion(std::string_view name) {
 
 fs::path companion_file(const char* name) {
   if (fs::path found = find_companion(name); !found.empty()) return found;
-  throw Error(ExitCode::kInternal, fmt::format("{} is neither beside {} nor in ../lib/lobelia",
-                                               name, own_file().string()));
+  // Nothing is known of the file that it should read.
+  throw Error(ExitCode::kInput, fmt::format("{} is neither beside {} nor in ../lib/lobelia", name,
+                                            own_file().string()))
+      .set_fault(true);
 }
 
 void* Module::find(const char* name) {

@@ -80,8 +80,8 @@ class ModuleFunction<Result(Arguments..., ...)> : ModuleAddress {
   constinit ModuleFunction<decltype(::function)> function { module, #function }
 
 /// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia; for the
-/// shared library beside that, or in lobelia/ or ../lobelia. Throws Error(kInternal) if it is in none, Error(kInput) if the
-/// system cannot tell.
+/// shared library beside that, or in lobelia/ or ../lobelia. Throws Error(kInput) if it is in none, or if the system
+/// cannot tell.
 std::filesystem::path companion_file(const char* name);
 /// The same, but empty if it is in none.
 std::filesystem::path find_companion(std::string_view name);

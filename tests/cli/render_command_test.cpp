@@ -142,7 +142,7 @@ TEST(RenderCommand, WithoutModulesIsStillHelpful) {
       "scene=\"$SCENES\"head_on.xml; cp \"$LOBELIA\" ./lobelia && ./lobelia plan \"$scene\" && "
       "./lobelia render \"$scene\" -q -o x.exr && ./lobelia render \"$scene\" -q -o y.exr --png y.png",
       directory.path());
-  EXPECT_EQ(result.exit_code, 70);
+  EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.output_tail, HasSubstr("camera rays        65536"));
   EXPECT_THAT(result.output_tail,
               HasSubstr("lobelia_png.so is neither beside " +
