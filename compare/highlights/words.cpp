@@ -15,9 +15,20 @@ std::string short_number(double value) {
   return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
-std::string sentence_on(const records::LocalHighlight& one) {
+/// A narrow highlight may lie on a broad one, and both have one brightest pixel.
+bool has_narrower_on_it(const records::LocalHighlight& one,
+                        std::span<const records::LocalHighlight> all) {
+  return std::ranges::any_of(all, [&](const records::LocalHighlight& other) {
+    return other.x == one.x && other.y == one.y && other.pixels < one.pixels;
+  });
+}
+
+std::string sentence_on(const records::LocalHighlight& one,
+                        std::span<const records::LocalHighlight> all) {
   if (one.only_in_a) return fmt::format("a has a highlight at ({}, {}) that b lacks", one.x, one.y);
-  std::string text = name_of_highlight(one.x, one.y);
+  const std::string text = has_narrower_on_it(one, all)
+                               ? fmt::format("the broader highlight around ({}, {})", one.x, one.y)
+                               : name_of_highlight(one.x, one.y);
   if (one.gone) return text + " is gone";
   std::vector<std::string> parts;
   const auto per_cent = [](double share) { return short_number(100 * std::abs(share)); };
@@ -61,7 +72,7 @@ std::vector<std::string> sentences_on_highlights(
   for (const records::LocalHighlight& one : highlights) {
     if (!(one.excess > 1)) continue;
     if (sentences.size() < kMostSaid)
-      sentences.push_back(sentence_on(one));
+      sentences.push_back(sentence_on(one, highlights));
     else
       ++more;
   }

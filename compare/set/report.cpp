@@ -302,11 +302,18 @@ std::string highlight_sentence(const Comparison& comparison, std::string_view a,
   if (std::abs(down) >= kLeastShift)
     ways.push_back(
         fmt::format("{} pixels {}", plain_number(std::abs(down)), down > 0 ? "down" : "up"));
+  // These figures are of all pixels over 5 % of the peak. Beside a sentence on one of several highlights, "the highlight"
+  // would be taken for that one.
+  const bool are_several =
+      comparison.highlights.size() > 1 && !sentences_on_highlights(comparison.highlights).empty();
+  const std::string_view subject = are_several ? "brightest pixels together are" : "highlight is";
   std::string text = parts.empty()
-                         ? fmt::format("{}'s highlight is as wide and as bright as {}'s", a, b)
-                         : fmt::format("{}'s highlight is {}", a, fmt::join(parts, " and "));
-  text += more_energy.empty() ? ", its energy equal" : ", its energy " + more_energy;
-  if (!ways.empty()) text += fmt::format("; it lies {}", fmt::join(ways, " and "));
+                         ? fmt::format("{}'s {} as wide and as bright as {}'s", a, subject, b)
+                         : fmt::format("{}'s {} {}", a, subject, fmt::join(parts, " and "));
+  text += fmt::format(", {} energy {}", are_several ? "their" : "its",
+                      more_energy.empty() ? "equal" : more_energy);
+  if (!ways.empty())
+    text += fmt::format("; {} {}", are_several ? "they lie" : "it lies", fmt::join(ways, " and "));
   // In a bright picture nothing stands out, and the sentence is of nearly everything.
   if (comparison.highlight_share > 0.5)
     text += fmt::format("; {:.0f} % of the picture count as highlight",

@@ -157,6 +157,23 @@ TEST(HighlightsTable, SaysWhichOnesTheReferenceLacks) {
   }
 }
 
+TEST(HighlightsTable, TellsABroadHighlightFromTheNarrowOneOnIt) {
+  records::LocalHighlight narrow;
+  narrow.x = 142;
+  narrow.y = 92;
+  narrow.pixels = 40;
+  narrow.gone = true;
+  narrow.excess = 30;
+  records::LocalHighlight broad = narrow;
+  broad.pixels = 4000;
+  broad.gone = false;
+  broad.energy = -0.1;
+  EXPECT_EQ(
+      sentences_on_highlights(std::array{narrow, broad}),
+      (std::vector<std::string>{"the highlight at (142, 92) is gone",
+                                "the broader highlight around (142, 92) has 10 % less light"}));
+}
+
 TEST(HighlightsTable, NamesTheWorstFirst) {
   const Spot left{30, 60, 1, 4, 4}, middle{80, 60, 0.5, 4, 4}, right{130, 60, 0.3, 4, 4};
   const auto with = [&](double of_left, double of_middle, double of_right) {
@@ -177,6 +194,19 @@ TEST(HighlightsTable, NamesTheWorstFirst) {
   EXPECT_EQ(sentences[0], "the highlight at (79, 59) is gone");
   EXPECT_EQ(sentences[1], "the highlight at (129, 59) has 30 % less light");
   EXPECT_THAT(why_not_pass(comparison, "a", "b"), HasSubstr("the highlight at (79, 59) is gone"));
+}
+
+TEST(HighlightsTable, SaysThatAFigureIsOfAllBrightPixels) {
+  const Spot left{30, 60, 1, 4, 4}, middle{80, 60, 0.5, 4, 4};
+  const auto with = [&](double of_middle) {
+    return picture(kTableWidth, kTableHeight,
+                   [&](double x, double y) { return left(x, y) + of_middle * middle(x, y); });
+  };
+  const ComparisonOptions options = usual_options();
+  EXPECT_THAT(highlight_sentence(compare(with(0), with(1), options)),
+              HasSubstr("a's brightest pixels together are 23 % narrower"));
+  EXPECT_THAT(highlight_sentence(compare(with(1), with(1), options)),
+              HasSubstr("a's highlight is as wide"));
 }
 
 TEST(HighlightsTable, HasNoAlarmForAUniformFactorWithinTheLimits) {
