@@ -351,14 +351,13 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     const bool choose_exposures = need_display(list) && options.viewing.automatic;
     const Peaks peaks = find_highlight || choose_exposures ? peaks_of(a, b) : Peaks{};
     const bool find_each = options.highlight && need_each_highlight(list);
+    const HighlightNoise may_differ{options.noise ? &noise : nullptr, options.rounding};
     std::vector<LocalHighlight> highlights;
     if (find_each || (choose_exposures && needs_exposures(peaks)))
-      highlights = find_highlights(b, options.surfaces,
-                                   {options.noise ? &noise : nullptr, options.rounding});
+      highlights = find_highlights(b, options.surfaces, may_differ);
     if (need_display(list)) result.viewing = with_exposures(options.viewing, peaks, b, highlights);
     if (find_each)
-      add_highlights_of_a(a, b, options.surfaces,
-                          {options.noise ? &noise : nullptr, options.rounding}, highlights);
+      add_highlights_of_a(a, b, options.surfaces, may_differ, highlights);
     else
       highlights.clear();
     result.highlights = highlights_record(judge_highlights(a, b, highlights));

@@ -82,27 +82,8 @@ Comparison compare_identifiers(const Image& a, const Image& b, const PictureSour
   return comparison;
 }
 
-}  // namespace
-
-LayerTypeChoice parse_layer_type(const std::string& text) {
-  const std::size_t equals = text.rfind('=');
-  const auto type =
-      equals == text.npos ? std::nullopt : find_id<LayerType>(kLayerTypes, text.substr(equals + 1));
-  if (!type)
-    throw Error(ExitCode::kUsage,
-                fmt::format("--layer-type {}: expected NAME=TYPE, where TYPE is one of {}",
-                            printable(text), join(kLayerTypes)));
-  return {text.substr(0, equals), *type};
-}
-
-LayerType type_of_layers(const PictureSource& a, const PictureSource& b,
-                         const ComparisonOptions& options) {
-  if (options.noise) return LayerType::kColour;
-  for (auto choice = options.layer_types.rbegin(); choice != options.layer_types.rend(); ++choice)
-    if (is_layer_called(a, choice->layer) || is_layer_called(b, choice->layer)) return choice->type;
-  return layer_type(a) == LayerType::kIdentifier ? LayerType::kIdentifier : layer_type(b);
-}
-
+/// The default limits of layers of the type; of colours none, see default_limits(). Those on the coverage of objects are for
+/// Cryptomattes.
 std::span<const MetricLimit> limits_of_type(LayerType type) {
   // Alpha is a share: the first is for single pixels, the second for all, and allows the rounding to 8 bits.
   static const std::array<MetricLimit, 2> alpha{{{"max_rel_peak", 0.01}, {"mae", 0.002}}};
@@ -128,6 +109,27 @@ std::span<const MetricLimit> limits_of_type(LayerType type) {
       return identifier;
   }
   return {};
+}
+
+}  // namespace
+
+LayerTypeChoice parse_layer_type(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  const auto type =
+      equals == text.npos ? std::nullopt : find_id<LayerType>(kLayerTypes, text.substr(equals + 1));
+  if (!type)
+    throw Error(ExitCode::kUsage,
+                fmt::format("--layer-type {}: expected NAME=TYPE, where TYPE is one of {}",
+                            printable(text), join(kLayerTypes)));
+  return {text.substr(0, equals), *type};
+}
+
+LayerType type_of_layers(const PictureSource& a, const PictureSource& b,
+                         const ComparisonOptions& options) {
+  if (options.noise) return LayerType::kColour;
+  for (auto choice = options.layer_types.rbegin(); choice != options.layer_types.rend(); ++choice)
+    if (is_layer_called(a, choice->layer) || is_layer_called(b, choice->layer)) return choice->type;
+  return layer_type(a) == LayerType::kIdentifier ? LayerType::kIdentifier : layer_type(b);
 }
 
 ComparisonOptions options_of_type(LayerType type, const ComparisonOptions& options,

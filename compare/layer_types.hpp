@@ -19,10 +19,6 @@ LayerTypeChoice parse_layer_type(const std::string& text);
 LayerType type_of_layers(const PictureSource& a, const PictureSource& b,
                          const ComparisonOptions& options);
 
-/// The default limits of layers of the type; of colours none, see default_limits(). Those on the coverage of objects are for
-/// Cryptomattes.
-std::span<const MetricLimit> limits_of_type(LayerType type);
-
 /// The options by which layers of the type are judged. Only limits on what is measured of the type are left of the given ones.
 /// Default limits of the type are added, each unless there is one on its metric; without default limits only if no other is
 /// left, so that no layer passes unjudged. Not colours but alpha are at the exposure 0 on a plain display.

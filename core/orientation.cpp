@@ -114,6 +114,24 @@ PixelWindow turned_window(const PixelWindow& window, const PixelWindow& display,
           std::abs(y1 - y0) + 1};
 }
 
+/// The picture as it is shown, from one that is stored in that orientation.
+Image turned_upright(Image stored, int orientation) {
+  if (orientation == kUpright) return stored;
+  const int width = stored.width(), height = stored.height();
+  const bool exchanged = exchanges_axes(orientation);
+  Image result(exchanged ? height : width, exchanged ? width : height);
+  // In squares that stay in the cache: with exchanged axes one of the pictures is walked across its rows.
+  constexpr int kSide = 64;
+  for (int top = 0; top < height; top += kSide)
+    for (int left = 0; left < width; left += kSide)
+      for (int y = top; y < std::min(top + kSide, height); ++y)
+        for (int x = left; x < std::min(left + kSide, width); ++x) {
+          const auto [to_x, to_y] = shown_at(x, y, width, height, orientation);
+          std::ranges::copy(stored.pixel(x, y), result.pixel(to_x, to_y).begin());
+        }
+  return result;
+}
+
 }  // namespace
 
 int stated_orientation(std::string_view file, std::string_view format, std::size_t page) {
@@ -137,26 +155,9 @@ int orientation_left_by_libtiff(std::string_view file, int orientation, std::siz
   const bool by_rgba = (is_jpeg && directory->number(kSamples).value_or(1) != 3) ||
                        colours == kYCbCr || colours == kLogL || colours == kLogLuv;
   if (!by_rgba) return orientation;
-  // Mirrored, of the exchanged ones two are left.
+  // Mirroring leaves two of the four that exchange rows and columns.
   if (!exchanges_axes(orientation)) return kUpright;
   return orientation == 5 || orientation == 7 ? 5 : 7;
-}
-
-Image turned_upright(Image stored, int orientation) {
-  if (orientation == kUpright) return stored;
-  const int width = stored.width(), height = stored.height();
-  const bool exchanged = exchanges_axes(orientation);
-  Image result(exchanged ? height : width, exchanged ? width : height);
-  // In squares that stay in the cache: with exchanged axes one of the pictures is walked across its rows.
-  constexpr int kSide = 64;
-  for (int top = 0; top < height; top += kSide)
-    for (int left = 0; left < width; left += kSide)
-      for (int y = top; y < std::min(top + kSide, height); ++y)
-        for (int x = left; x < std::min(left + kSide, width); ++x) {
-          const auto [to_x, to_y] = shown_at(x, y, width, height, orientation);
-          std::ranges::copy(stored.pixel(x, y), result.pixel(to_x, to_y).begin());
-        }
-  return result;
 }
 
 void turn_upright(Picture& picture, int orientation) {

@@ -21,10 +21,8 @@ int stated_orientation(std::string_view file, std::string_view format, std::size
 /// libtiff's RGBA interface, which mirrors rows and columns, but does not exchange them.
 int orientation_left_by_libtiff(std::string_view file, int orientation, std::size_t page);
 
-/// The picture as it is shown, from one that is stored in that orientation.
-Image turned_upright(Image stored, int orientation);
-
-/// The same of a picture without overscan, whose windows and orientation it states in its source.
+/// Makes a picture without overscan, which is stored in that orientation, what is shown. States its windows and the
+/// orientation in its source.
 void turn_upright(Picture& picture, int orientation);
 
 /// What was done to the stored picture: "turned by 180 degrees". Empty for kUpright.
