@@ -103,7 +103,7 @@ void undo(const std::string& given) {
   if (!verbosity().quiet)
     for (const fs::path& file : done.files) fmt::print("{}\n", printable_path(file.string()));
   say_problems(done);
-  fmt::print("{} references are what they were before\n", done.files.size());
+  fmt::print("{} put back\n", done.files.size());
 }
 
 }  // namespace

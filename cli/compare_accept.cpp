@@ -361,8 +361,8 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   for (const NewReference& one : list)
     files.push_back({one.from, *one.bytes, one.place.lexically_relative(folder), one.before});
   replace_files(root, files);
-  fmt::print("{} references were replaced; 'lobelia accept --undo {}' puts the old ones back\n",
-             list.size(), printable_path(argument_of(root.path())));
+  fmt::print("{} replaced; 'lobelia accept --undo {}' puts the old ones back\n", list.size(),
+             printable_path(argument_of(root.path())));
   return list.size() == found && only_these;
 }
 

@@ -76,7 +76,7 @@ TEST_F(CompareAccept, OnlyAPersonWhoSaysYesAccepts) {
   EXPECT_THAT(accept("", "yes", "", "CI=true"), HasSubstr("this is a CI job"));
   EXPECT_EQ(text("truth/x.exr"), before);
   const std::string accepted = accept("");
-  EXPECT_THAT(accepted, HasSubstr("2 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("2 replaced"));
   EXPECT_THAT(accepted, HasSubstr("ended with 0"));
   EXPECT_EQ(text("truth/x.exr"), text("mine/x.exr"));
   EXPECT_EQ(text("truth/new.exr"), text("mine/new.exr"));
@@ -90,14 +90,14 @@ TEST_F(CompareAccept, OnlyAPersonWhoSaysYesAccepts) {
 TEST_F(CompareAccept, AFailureThatIsLeftIsNoSuccess) {
   differing_pair("x.exr"), grey("truth/gone.exr", 0.3f);
   const std::string accepted = accept("mine truth");
-  EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("1 replaced"));
   EXPECT_THAT(accepted, HasSubstr("ended with 1"));
 }
 
 TEST_F(CompareAccept, APairThatHasAWarningTooIsReplacedOnce) {
   differing_pair("x.exr");
   const std::string accepted = accept("mine truth --warn mae=1e-9");
-  EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("1 replaced"));
   EXPECT_THAT(accepted, HasSubstr("ended with 0"));
 }
 
@@ -151,7 +151,7 @@ TEST_F(CompareAccept, NoLayerOfAJudgedPictureMayBeNotFinite) {
               HasSubstr("left alone: mine/alpha.exr has values that are not finite in layer A"));
   EXPECT_THAT(said,
               HasSubstr("left alone: mine/added.exr has values that are not finite in layer mist"));
-  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(said, HasSubstr("1 replaced"));
   EXPECT_EQ(text("truth/depth.exr"), text("mine/depth.exr"));
 }
 
@@ -175,7 +175,7 @@ TEST_F(CompareAccept, NothingIsWrittenThroughALinkToAFolder) {
   for (const char* name : {"sub/x.exr", "sub/new.exr"})
     EXPECT_THAT(said, HasSubstr(fmt::format("left alone: truth/{}: a link leads out", name)));
   EXPECT_THAT(said, HasSubstr("left alone: truth/lost/x.exr: "));
-  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(said, HasSubstr("1 replaced"));
   EXPECT_THAT(said, HasSubstr("ended with 1"));
   EXPECT_EQ(text("outside/x.exr"), before);
   EXPECT_EQ(files_in(path("outside")), 1u);
@@ -199,7 +199,7 @@ TEST_F(CompareAccept, ATableLeadsThroughNoLinkOutOfAFolder) {
                 HasSubstr("left alone: truth/ln/x.exr: truth/ln is a link that leads elsewhere"))
         << options;
   }
-  EXPECT_THAT(accept("--pairs pairs.csv"), HasSubstr("2 references were replaced"));
+  EXPECT_THAT(accept("--pairs pairs.csv"), HasSubstr("2 replaced"));
   EXPECT_EQ(text("outside/x.exr"), before);
   EXPECT_EQ(text("truth/v3/y.exr"), text("mine/y.exr"));
 }
@@ -211,7 +211,7 @@ TEST_F(CompareAccept, AFolderIsNamedAsItWasGiven) {
   expect_one_line(
       undo({"known"}), 3,
       "known: no acceptance to undo in this folder, nor above it; there is one in known/sub");
-  EXPECT_THAT(undo({"known/sub"}).output_tail, HasSubstr("known/sub/x.exr\n1 references are what"));
+  EXPECT_THAT(undo({"known/sub"}).output_tail, HasSubstr("known/sub/x.exr\n1 put back"));
   EXPECT_THAT(accept("mine/sub ./-b"), HasSubstr("'lobelia accept --undo ./-b' puts"));
 }
 
@@ -221,7 +221,7 @@ TEST_F(CompareAccept, ANewPictureWhoseFolderIsAFileIsLeftAlone) {
   const std::string said = accept("mine truth");
   for (const char* name : {"x.exr", "deep/x.exr"})
     EXPECT_THAT(said, HasSubstr(fmt::format("left alone: truth/notes/{}: ", name)));
-  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(said, HasSubstr("1 replaced"));
   EXPECT_THAT(said, HasSubstr("ended with 1"));
   EXPECT_EQ(text("truth/notes"), "mine");
 }
@@ -254,7 +254,7 @@ TEST_F(CompareAccept, AReferenceOnAnotherFileSystemIsLeftAlone) {
       "--accept\n");
   const std::string said = at_terminal("unshare -rm sh script");
   EXPECT_THAT(said, HasSubstr("left alone: truth/disk/x.exr: truth/disk: another file system"));
-  EXPECT_THAT(said, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(said, HasSubstr("1 replaced"));
 }
 
 TEST_F(CompareAccept, APictureThatIsThereIsNotCalledNew) {
@@ -327,7 +327,7 @@ TEST_F(CompareAccept, AnAcceptanceKeepsModesAndIsUndone) {
   const ProcessResult undone = undo();
   EXPECT_EQ(undone.exit_code, 0) << undone.output_tail;
   EXPECT_THAT(undone.output_tail, HasSubstr("truth/x.exr\n"));
-  EXPECT_THAT(undone.output_tail, HasSubstr("2 references are what they were before"));
+  EXPECT_THAT(undone.output_tail, HasSubstr("2 put back"));
   EXPECT_EQ(text("truth/x.exr"), before);
   EXPECT_EQ(mode("truth/x.exr"), 0600u);
   EXPECT_FALSE(fs::exists(path("truth/deep")));
@@ -358,7 +358,7 @@ TEST_F(CompareAccept, AcceptancesOfFilesAndTablesAreUndoneToo) {
   EXPECT_EQ(undo({"truth/x.exr"}).exit_code, 0);
   EXPECT_EQ(text("truth/x.exr"), x);
   file("pairs.csv", "mine,truth\nmine/x.exr,truth/x.exr\nmine/y.exr,other/truth/y.exr\n");
-  EXPECT_THAT(accept("--pairs pairs.csv"), HasSubstr("2 references were replaced"));
+  EXPECT_THAT(accept("--pairs pairs.csv"), HasSubstr("2 replaced"));
   EXPECT_EQ(undo({"truth"}).exit_code, 0) << "they lie in two folders, and are one acceptance";
   EXPECT_EQ(text("truth/x.exr"), x);
   EXPECT_EQ(text("other/truth/y.exr"), y);
