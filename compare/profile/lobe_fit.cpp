@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "compare/uncertainty/critical.hpp"
 #include "core/constants.hpp"
 
 namespace lobelia {
@@ -29,6 +30,7 @@ struct Term {
   Place centre;
   double radiance;
   double weight = 1, error = kNaN;  ///< 0 for a clipped pixel
+  double rounding = 0;
   int x = 0, y = 0;
   std::size_t nodes = 0, count = 0;  ///< in LobeTerms::nodes; none: the pixel shows its centre
 };
@@ -177,12 +179,30 @@ double refine(Family family, const LobeTerms& terms, double u) {
   return (from + to) / 2;
 }
 
-/// The variance of the sum of a value of each pixel. Neighbours may share what they deviate by, so it is the largest of
+/// The variance of a sum of independent terms by their squares, and how well these tell it.
+struct SumVariance {
+  double variance = 0, fourth_powers = 0;
+
+  void add(double term) {
+    variance += term * term;
+    fourth_powers += term * term * term * term;
+  }
+  /// Half of the interval that holds the sum as often as two standard deviations of a normal number do.
+  double standard_error() const {
+    constexpr double kBeyondTwoDeviations = 0.0455;
+    static const CriticalT critical(kBeyondTwoDeviations);
+    if (!(fourth_powers > 0)) return 0;
+    const double freedom = 3 * variance * variance / fourth_powers;
+    return std::sqrt(variance) * critical(freedom) / critical.normal();
+  }
+};
+
+/// Of the sum of a value of each pixel. Neighbours may share what they deviate by, so the variance is the largest of
 /// those by blocks of 1, 2, 4 ... pixels to a side, as long as there are enough blocks.
-double variance_of_sum(const std::vector<Term>& terms, const std::vector<double>& values) {
+SumVariance variance_of_sum(const std::vector<Term>& terms, const std::vector<double>& values) {
   constexpr std::size_t kFewestBlocks = 30;
-  double largest = 0;
-  for (const double value : values) largest += value * value;
+  SumVariance largest;
+  for (const double value : values) largest.add(value);
   for (int shift = 1; shift < 16; ++shift) {
     std::unordered_map<std::uint64_t, double> blocks;
     for (std::size_t i = 0; i < terms.size(); ++i)
@@ -190,17 +210,19 @@ double variance_of_sum(const std::vector<Term>& terms, const std::vector<double>
         blocks[(std::uint64_t(terms[i].y >> shift) << 32) + std::uint64_t(terms[i].x >> shift)] +=
             values[i];
     if (blocks.size() < kFewestBlocks) break;
-    double squares = 0;
-    for (const auto& [block, sum] : blocks) squares += sum * sum;
-    largest = std::max(largest, squares * double(blocks.size()) / double(blocks.size() - 1));
+    const double unbiased = std::sqrt(double(blocks.size()) / double(blocks.size() - 1));
+    SumVariance of_blocks;
+    for (const auto& [block, sum] : blocks) of_blocks.add(sum * unbiased);
+    if (of_blocks.variance > largest.variance) largest = of_blocks;
   }
   return largest;
 }
 
-/// The width's standard error, by HC3; with known errors at least by these.
+/// The width's standard error, by HC3; with known errors and rounding at least by these. `above_half` pixels are above half
+/// of the peak.
 template <class Family>
 double standard_error(Family family, const LobeTerms& all, double width, double coefficient,
-                      bool shared) {
+                      double above_half, bool shared) {
   const std::vector<Term>& terms = all.pixels;
   // Derivatives by the relative change of the coefficient (a) and of the width (b).
   struct Row {
@@ -217,7 +239,7 @@ double standard_error(Family family, const LobeTerms& all, double width, double 
     bb += term.weight * by_width * by_width;
   }
   const double determinant = aa * bb - ab * ab;
-  double of_noise = 0, together = 0;
+  double known = 0, together = 0;
   std::vector<double> scores;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
@@ -226,16 +248,20 @@ double standard_error(Family family, const LobeTerms& all, double width, double 
                             (bb * row.a * row.a - 2 * ab * row.a * row.b + aa * row.b * row.b) /
                             determinant;
     scores.push_back(influence * row.residual / std::max(1e-6, 1 - leverage));
+    const double rounding = influence * terms[i].rounding;
+    known += rounding * rounding;
     if (std::isnan(terms[i].error)) continue;
     const double error = influence * terms[i].error;
-    of_noise += error * error;
+    known += error * error;
     together += error;
   }
-  const double variance = std::max(of_noise, variance_of_sum(terms, scores));
-  // Of a mean over the places of a pixel.
-  constexpr double kOfMeans = 5e-7;
-  return width * std::max({std::sqrt(variance), shared ? std::abs(together) : 0,
-                           all.nodes.empty() ? 0 : kOfMeans});
+  // The places of a pixel give its mean exactly up to degree 5, so what is left falls as the sixth power of the half-width.
+  // The smallest lobes with any of our filters are off by less.
+  constexpr double kOfMeans = 1.5e-6;
+  const double of_means =
+      all.nodes.empty() ? 0 : kOfMeans * std::pow(double(kFewestPixelsOfALobe) / above_half, 3);
+  return width * std::max({std::sqrt(known), variance_of_sum(terms, scores).standard_error(),
+                           shared ? std::abs(together) : 0, of_means});
 }
 
 LobeFit no_fit(std::size_t pixels, std::string why) {
@@ -272,7 +298,7 @@ LobeFit fit_lobe(Family family, const LobeTerms& all, bool shared, const std::st
     if (term.weight > 0) squares += (term.radiance - value) * (term.radiance - value);
   }
   return {width,
-          standard_error(family, all, width, best.coefficient, shared),
+          standard_error(family, all, width, best.coefficient, double(within), shared),
           best.coefficient,
           std::sqrt(squares / double(known)) / brightest,
           known,
@@ -326,12 +352,21 @@ double told_apart(const std::vector<Term>& terms, const Candidate& better, const
     products.push_back(terms[i].weight * r * d);
     more += terms[i].weight * (2 * r + d) * d;
   }
-  return more > 0 ? more / (2 * std::sqrt(variance_of_sum(terms, products))) : 0;
+  return more > 0 ? more / (2 * std::sqrt(variance_of_sum(terms, products).variance)) : 0;
 }
 
-/// Adds a share of what the width would be off by if the other fit were the right one.
-void add_doubt(LobeFit& fit, const LobeFit& other, double share) {
-  fit.standard_error = std::hypot(fit.standard_error, share * (fit.width - other.width));
+/// Adds half of what the width would be off by if the other fit were the right one.
+void add_doubt(LobeFit& fit, const LobeFit& other) {
+  fit.standard_error = std::hypot(fit.standard_error, (fit.width - other.width) / 2);
+}
+
+/// Takes the middle of two fits of which either may be the right one, so that the error need not reach from one to the
+/// other.
+void meet_halfway(LobeFit& fit, const LobeFit& other) {
+  fit.standard_error = std::max(fit.standard_error, other.standard_error);
+  add_doubt(fit, other);
+  fit.width = (fit.width + other.width) / 2;
+  fit.coefficient = (fit.coefficient + other.coefficient) / 2;
 }
 
 /// The families that explain pixels which show their centres, or their means.
@@ -355,6 +390,7 @@ Explained explain(std::span<const SeenLobe> pixels, bool shared, bool means) {
                pixel.radiance - (means ? pixel.more_beneath : 0),
                is_known ? weight : 0,
                pixel.error,
+               pixel.rounding,
                pixel.x,
                pixel.y});
       if (!means) continue;
@@ -377,7 +413,7 @@ Explained explain(std::span<const SeenLobe> pixels, bool shared, bool means) {
     // Noise may have chosen.
     if (better.family.fit.why_not.empty() && other.family.fit.why_not.empty() &&
         told_apart(of->pixels, better, other) < kToldApart)
-      add_doubt(better.family.fit, other.family.fit, 0.5);
+      add_doubt(better.family.fit, other.family.fit);
     result.families.push_back(std::move(better));
   }
   result.families.push_back(candidate(Ggx{}, FittedFamily::kGgx, false, result.half, shared));
@@ -415,6 +451,7 @@ LobeFit fit_cosine_lobe(std::span<const LobeSample> samples) {
                             kNaN,
                             0,
                             0,
+                            0,
                             terms.nodes.size(),
                             sample.nodes.size()});
     for (const LobeSample::Node& node : sample.nodes)
@@ -437,7 +474,7 @@ Explanation explain_highlight(std::span<const SeenLobe> pixels, bool shared, Pix
   if (told_apart(means.half.pixels, a, b) >= kToldApart) return by_centres;
   for (FamilyFit& one : by_centres.families) {
     const auto other = std::ranges::find(by_means.families, one.family, &FamilyFit::family);
-    if (one.fit.why_not.empty() && other->fit.why_not.empty()) add_doubt(one.fit, other->fit, 1);
+    if (one.fit.why_not.empty() && other->fit.why_not.empty()) meet_halfway(one.fit, other->fit);
   }
   by_centres.pixels = PixelsShow::kUnknown;
   return by_centres;

@@ -11,12 +11,14 @@
 //               root of the derivative of the sum of squares, by Boost.Math's TOMS 748.
 // Pixels:       a picture shows the lobe at its pixels' centres, or its mean over each pixel with a filter. A mean is a sum
 //               over nodes, places of the pixel with weights, so the lobe is fitted and not its blurred copy. Where it is not
-//               known which of the two a picture shows, both are fitted and told apart like families; if they cannot be, half
-//               of the difference of their widths is added to the error.
+//               known which of the two a picture shows, both are fitted and told apart like families; if they cannot be, the
+//               width is the middle of both, and half of their difference is added to the error.
 // Error:        the square root of the width's entry in the covariance matrix of the residuals by White's estimate HC3
 //               (MacKinnon, White 1985, "Some heteroskedasticity-consistent covariance matrix estimators"). It allows for
 //               noise that differs from pixel to pixel. Explanations sum it over blocks of pixels too, and the largest
-//               counts: neighbours share what a texture adds. With known noise it is at least that of the noise.
+//               counts: neighbours share what a texture adds. A highlight has few pixels, and noise may be in few of
+//               those. So the error is half of Student's interval of two deviations, with Satterthwaite's degrees of
+//               freedom, 3 (sum s^2)^2 / sum s^4 over the terms s. With known noise or rounding it is at least theirs.
 //               Without noise it tells how far the lobe is from the family, not the uncertainty of its width.
 // Told apart:   two families, by the difference of their sums of squares over its standard deviation. With r the residual
 //               of the better fit and d the difference of both fits, that is twice the deviation of the sum of r d.
@@ -74,6 +76,7 @@ struct SeenLobe {
   double irradiance;  ///< times the reflectance: what `scale` is without foreshortening
   double radiance;
   double error;          ///< standard error of the radiance; NaN if unknown
+  double rounding = 0;   ///< standard deviation of what the file's rounding adds; 0 if unknown
   int x = 0, y = 0;      ///< of the pixel
   bool is_known = true;  ///< as LobeSample has it
   /// For a fit of means: the places of the pixel, and how much its mean of all that lies beneath the highlight exceeds
