@@ -300,21 +300,30 @@ void add_verify_highlights(CLI::App& verify, ExitCode& exit_code) {
   auto* command = verify.add_subcommand(
       "highlights",
       "Try whether the default limits find a changed highlight beside a bright light");
-  auto limits = std::make_shared<WorkLimits>();
+  struct Arguments {
+    std::string json;
+    WorkLimits limits;
+  };
+  auto options = std::make_shared<Arguments>();
   OptionGroup group(*command);
-  limits->add_to(group);
+  add_json(group, options->json, "verify-highlights");
+  options->limits.add_to(group);
   command->footer(
       "The light has 5 to 50 000 times the highlight's peak. The highlight alone is dimmer, moved\n"
       "or gone; rounding to half floats must pass. docs/limits.md says how each highlight is judged.\n"
       "\n"
-      "Exit codes: 0 every change is found, 1 some are missed or rounding is a difference; 2 usage.");
-  command->callback([limits, &exit_code] {
-    limits->run([&] {
+      "Exit codes: 0 every change is found, 1 some are missed or rounding is a difference; 2 usage,\n"
+      "4 an output cannot be written.");
+  command->callback([options, &exit_code] {
+    options->limits.run([&] {
+      OutputFiles().writes_report(options->json);
       ProgressLine progress;
       const auto rows = highlights::measure_table(
           [&](double done) { progress.show(done, "highlights beside a light"); });
       progress.clear();
-      fmt::print("{}", highlights::table_text(rows));
+      records::VerifyHighlights record = highlights::report_record(rows);
+      record.command = command_line();
+      write_reports(highlights::table_text(rows), {{options->json, record_text(record)}});
       exit_code = highlights::are_right(rows) ? ExitCode::kSuccess : ExitCode::kDiffers;
     });
   });
@@ -322,6 +331,7 @@ void add_verify_highlights(CLI::App& verify, ExitCode& exit_code) {
 
 struct VerifyProfilesArguments {
   profile_study::Options study;
+  std::string json;
   bool markdown = false;
   WorkLimits limits;
 };
@@ -331,6 +341,7 @@ ExitCode run_verify_profiles(const VerifyProfilesArguments& options) {
   std::vector<std::string_view> names;
   for (const profile_study::Kind& kind : profile_study::kinds()) names.push_back(kind.name);
   if (!only.empty()) chosen_place(only, "--kind", names);
+  OutputFiles().writes_report(options.json);
   ProgressLine progress;
   const auto rows = profile_study::measure(
       options.study,
@@ -339,7 +350,10 @@ ExitCode run_verify_profiles(const VerifyProfilesArguments& options) {
       },
       [&](double done) { progress.show(done, "made pictures"); });
   progress.clear();
-  write_reports(profile_study::report_text(rows, options.markdown), {});
+  records::VerifyProfiles record = profile_study::report_record(rows, options.study.seed);
+  record.command = command_line();
+  write_reports(profile_study::report_text(rows, options.markdown),
+                {{options.json, record_text(record)}});
   return profile_study::meets_goal(rows) ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
@@ -351,7 +365,9 @@ void add_verify_profiles(CLI::App& verify, ExitCode& exit_code) {
   group.add_number("--pictures", options->study.pictures, 1, 10000, "Pictures of each kind");
   add_common(group, "--seed", options->study.seed, " of the pictures");
   group.add("--kind", options->study.only, "KIND", "This row of the table alone, by its name");
-  group.add_flag("--markdown", options->markdown, "Print the table of docs/profiles.md");
+  auto* json = add_json(group, options->json, "verify-profiles");
+  group.add_flag("--markdown", options->markdown, "Print the table of docs/profiles.md")
+      ->excludes(json);
   options->limits.add_to(group);
   command->footer(
       "Pictures are made from formulas. Some are of spheres with Phong, Blinn-Phong and GGX highlights,\n"
@@ -361,7 +377,8 @@ void add_verify_profiles(CLI::App& verify, ExitCode& exit_code) {
       "of each kind are to lie within two of their standard errors of the truth.\n"
       "docs/profiles.md has the outcome.\n"
       "\n"
-      "Exit codes: 0 every kind meets the goal, 1 some do not; 2 usage.");
+      "Exit codes: 0 every kind meets the goal, 1 some do not; 2 usage, 4 an output cannot be\n"
+      "written.");
   command->callback([options, &exit_code] {
     options->limits.run([&] { exit_code = run_verify_profiles(*options); });
   });

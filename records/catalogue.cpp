@@ -27,6 +27,7 @@
 #include "records/shader_check.hpp"
 #include "records/stability.hpp"
 #include "records/verdicts.hpp"
+#include "records/verify.hpp"
 
 namespace lobelia::records {
 namespace {
@@ -43,8 +44,8 @@ constexpr auto kKinds =
              ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
              FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
              LobeSearch, Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
-             Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability,
-             VerifyVerdicts>();
+             Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyHighlights, VerifyPaper,
+             VerifyProfiles, VerifyStability, VerifyVerdicts>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -124,7 +125,7 @@ const Struct& detail::find_struct(const std::type_info& type) {
           define_page_tables,      define_paper_tables,        define_profile_tables,
           define_project_tables,   define_render_tables,       define_result_tables,
           define_scene_tables,     define_shader_check_tables, define_stability_tables,
-          define_verdict_tables})
+          define_verdict_tables,   define_verify_tables})
       define(all);
     return all;
   }();

@@ -127,4 +127,18 @@ std::string table_text(const std::vector<Row>& rows) {
 
 bool are_right(const std::vector<Row>& rows) { return std::ranges::all_of(rows, &Row::is_right); }
 
+records::VerifyHighlights report_record(const std::vector<Row>& rows) {
+  records::VerifyHighlights record;
+  for (const Row& row : rows) {
+    records::ChangedHighlight& change = record.changes.emplace_back();
+    change = {row.scene, row.change, row.should_differ, {}};
+    for (std::size_t k = 0; k < row.differs.size(); ++k) {
+      const bool is_right = row.differs[k] == row.should_differ;
+      change.lights.push_back({kLights[k], row.differs[k], is_right});
+      record.wrong += !is_right;
+    }
+  }
+  return record;
+}
+
 }  // namespace lobelia::highlights

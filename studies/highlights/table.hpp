@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "records/verify.hpp"
+
 namespace lobelia::highlights {
 
 /// The light's radiance, in units of the highlight's peak.
@@ -25,5 +27,6 @@ std::vector<Row> measure_table(const std::function<void(double)>& on_progress);
 
 std::string table_text(const std::vector<Row>& rows);
 bool are_right(const std::vector<Row>& rows);
+records::VerifyHighlights report_record(const std::vector<Row>& rows);
 
 }  // namespace lobelia::highlights

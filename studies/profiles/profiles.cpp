@@ -71,8 +71,17 @@ void Tally::add(double found, double truth, double error, double unit) {
   const double away = std::abs(found - truth);
   within_one += away <= error;
   within_two += away <= 2 * error;
-  worst = std::max(worst, error > 0 ? away / error : away > 0 ? kInfinity : 0);
+  distances.push_back(error > 0 ? away / error : away > 0 ? kInfinity : 0);
   errors.push_back(error / unit);
+}
+
+double Tally::worst() const { return distances.empty() ? 0 : *std::ranges::max_element(distances); }
+
+double Row::median_distance() const {
+  std::vector<double> all;
+  for (const auto& [name, tally] : figures)
+    all.insert(all.end(), tally.distances.begin(), tally.distances.end());
+  return median_of(std::move(all));
 }
 
 double Row::share() const {
@@ -113,6 +122,7 @@ std::string report_text(const std::vector<Row>& rows, bool markdown) {
   table.columns = {{"pictures of highlights", -1}, {"pictures", 1, "{}", 2}};
   for (const char* name : kFigures) table.columns.push_back({name, 1, "{}", 2});
   table.columns.push_back({"all", 1, "{}", 2});
+  table.columns.push_back({"median distance", 1, "{}", 2});
   int pictures = 0;
   std::string missed;
   for (const Row& row : rows) {
@@ -124,6 +134,7 @@ std::string report_text(const std::vector<Row>& rows, bool markdown) {
                           : fmt::format("{:.1f} %", 100 * found->second.share()));
     }
     cells.push_back(fmt::format("{:.1f} %", 100 * row.share()));
+    cells.push_back(fmt::format("{:.2f}", row.median_distance()));
     table.rows.push_back(std::move(cells));
     pictures += row.pictures;
     if (row.share() < kGoal) missed += (missed.empty() ? "" : ", ") + row.kind;
@@ -143,7 +154,7 @@ std::string report_text(const std::vector<Row>& rows, bool markdown) {
       cells.push_back(found == row.figures.end()
                           ? std::string("-")
                           : fmt::format("{:.1g} ({:.2g})", median_of(found->second.errors),
-                                        found->second.worst));
+                                        found->second.worst()));
     }
     sizes.rows.push_back(std::move(cells));
   }
@@ -156,6 +167,22 @@ std::string report_text(const std::vector<Row>& rows, bool markdown) {
 
 bool meets_goal(const std::vector<Row>& rows) {
   return std::ranges::all_of(rows, [](const Row& row) { return row.share() >= kGoal; });
+}
+
+records::VerifyProfiles report_record(const std::vector<Row>& rows, unsigned seed) {
+  records::VerifyProfiles record;
+  record.seed = seed;
+  record.goal = kGoal;
+  for (const Row& row : rows) {
+    record.outside += row.share() < kGoal;
+    records::KindCoverage& kind = record.kinds.emplace_back();
+    kind = {row.kind, row.pictures, row.share(), row.median_distance(), {}};
+    for (const auto& [name, tally] : row.figures)
+      kind.figures.push_back({name, tally.figures, tally.within_one, tally.within_two,
+                              tally.missing, median_of(tally.distances), tally.worst(),
+                              median_of(tally.errors)});
+  }
+  return record;
 }
 
 }  // namespace lobelia::profile_study

@@ -8,6 +8,7 @@
 
 #include "compare/profile/profile.hpp"
 #include "records/profile.hpp"
+#include "records/verify.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::profile_study {
@@ -17,14 +18,15 @@ struct Tally {
   int figures = 0;     ///< that have a standard error
   int within_one = 0;  ///< standard error of the truth
   int within_two = 0;
-  int missing = 0;                  ///< not measured, or without a standard error
-  double worst = 0;                 ///< the largest distance, in standard errors
-  std::vector<double> errors = {};  ///< stated, as shares of the true value or in pixels
+  int missing = 0;                     ///< not measured, or without a standard error
+  std::vector<double> distances = {};  ///< from the truth, in standard errors
+  std::vector<double> errors = {};     ///< stated, as shares of the true value or in pixels
 
   void add(double found, double truth, double error, double unit);
   double share() const {
     return figures + missing > 0 ? double(within_two) / (figures + missing) : 0;
   }
+  double worst() const;  ///< the largest distance; 0 if there is none
 };
 
 struct Row {
@@ -34,13 +36,16 @@ struct Row {
 
   /// Over all figures.
   double share() const;
+  /// The distance from the truth that half of the figures have at most: 0.67 if errors are normal and stated rightly, less
+  /// where they are stated too large. NaN if there are none.
+  double median_distance() const;
 };
 
 /// At least this share of each kind is to lie within two stated errors.
 inline constexpr double kGoal = 0.95;
 
 struct Options {
-  int pictures = 24;  ///< of each kind
+  int pictures = 60;  ///< of each kind
   unsigned seed = 1;
   std::string only = {};  ///< the kind of this name; empty: all
 };
@@ -55,5 +60,6 @@ std::vector<Row> measure(const Options& options, const ProfileOfScene& profile_o
 
 std::string report_text(const std::vector<Row>& rows, bool markdown);
 bool meets_goal(const std::vector<Row>& rows);
+records::VerifyProfiles report_record(const std::vector<Row>& rows, unsigned seed);
 
 }  // namespace lobelia::profile_study
