@@ -26,12 +26,20 @@ std::string lacking(int error) {
   }
 }
 
+namespace {
+/// The errno in an exception of the standard library; 0 if there is none.
+int errno_of(const std::exception& error) {
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);
+  if (!system) return 0;
+  const std::error_category& category = system->code().category();
+  const bool is_errno = category == std::generic_category() || category == std::system_category();
+  return is_errno ? system->code().value() : 0;
+}
+}  // namespace
+
 std::string lacking(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) return lacking(ENOMEM);
-  if (const auto* system = dynamic_cast<const std::system_error*>(&error))
-    if (system->code().category() == std::generic_category() ||
-        system->code().category() == std::system_category())
-      return lacking(system->code().value());
+  if (const int number = errno_of(error)) return lacking(number);
   // The messages of oneTBB and OpenEXR contain the system's words or std::bad_alloc. The dynamic linker names the library
   // that does not fit.
   const std::string_view words = error.what();
@@ -84,10 +92,13 @@ bool tells_of_file(int error) {
 Error as_error(const std::exception& error) {
   const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
   if (!of_file) {
-    const std::string lack = lacking(error);
-    return lack.empty()
-               ? Error(ExitCode::kInternal, fmt::format("internal error: {}", error.what()))
-               : Error(ExitCode::kNoResources, lack);
+    if (const std::string lack = lacking(error); !lack.empty())
+      return Error(ExitCode::kNoResources, lack);
+    // std::thread has no other words than errno's. A mutex that would wait for itself is a bug of ours.
+    if (const int number = errno_of(error); number != 0 && number != EDEADLK)
+      return Error(ExitCode::kNoResources,
+                   fmt::format("the system refuses a thread: {}", error.what()));
+    return Error(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
   }
   // "filesystem error: WHAT: WHY [PATH]"
   constexpr std::string_view kPrefix = "filesystem error: ";
