@@ -289,10 +289,13 @@ void FarmSession::write_farm_record() const {
 }
 
 bool FarmSession::has_lost(const std::vector<JobState>& states) const {
+  // A cell with a failed job is "failed", unless nothing can be read of the failure.
+  const auto has_ended = [&](JobIndex job) {
+    return states[job] == JobState::kDone || states[job] == JobState::kFailed ||
+           states[job] == JobState::kBlocked || !work_.graph[job].exists;
+  };
   return std::ranges::any_of(waiting_cells_, [&](std::size_t cell) {
-    return status_[cell] == "missing" &&
-           std::ranges::all_of(work_.graph.jobs(cell),
-                               [&](JobIndex job) { return states[job] == JobState::kDone; });
+    return status_[cell] == "missing" && std::ranges::all_of(work_.graph.jobs(cell), has_ended);
   });
 }
 

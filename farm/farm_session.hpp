@@ -45,7 +45,7 @@ class FarmSession {
   void show_what_is_there();
   void write_farm_record() const;
   FarmSummary summarise(const JobRunWork& done);
-  /// Whether all results of a cell were made (`states`), and vanished before the cell was written.
+  /// Whether all jobs of a cell have ended (`states`), and a result or what failed was not there when the cell was written.
   bool has_lost(const std::vector<JobState>& states) const;
 
  private:

@@ -31,7 +31,8 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) 
     // Safe to trust: an engine's file was read in a separate process and encoded anew.
     image = read_trusted_image(file);
   } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
+    // After a fault of the disk nothing is known of the picture.
+    if (error.code() != ExitCode::kInput || error.is_fault()) throw;
     throw ResultFailure(FailureClass::kBadOutput, error.what());
   }
   if (image.width() != scene.film.width || image.height() != scene.film.height)
