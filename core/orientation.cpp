@@ -78,6 +78,14 @@ int of_radiance(std::string_view file) {
   return found == std::end(kAxes) ? kUpright : int(found - kAxes) + 1;
 }
 
+/// SMPTE ST 268, field 30: the direction of the values of a line, then of the lines.
+int of_dpx(std::string_view file) {
+  constexpr std::size_t kPlace = 768;
+  constexpr int kByField[] = {1, 2, 4, 3, 5, 6, 8, 7};
+  const std::uint64_t field = number_at(file, kPlace, file.starts_with("XPDS"), 2);
+  return field < std::size(kByField) ? kByField[field] : kUpright;
+}
+
 bool exchanges_axes(int orientation) { return orientation >= 5; }
 
 /// Where the stored pixel (x, y) of a picture of that stored size is shown.
@@ -141,6 +149,7 @@ int stated_orientation(std::string_view file, std::string_view format, std::size
   if (format == "webp") return of_webp(file);
   if (format == "tiff") return of_directory(directory_of(file, page));
   if (format == "hdr") return of_radiance(file);
+  if (format == "dpx") return of_dpx(file);
   return kUpright;
 }
 

@@ -13,8 +13,9 @@ namespace lobelia {
 inline constexpr int kUpright = 1, kMostOrientation = 8;
 
 /// What the file states of page `page` (0 but in a TIFF): by the Exif of a JPEG, a PNG (chunk eXIf) or a WebP, the tag of
-/// a TIFF, and the line of a Radiance file that names its axes. kUpright for other formats, if nothing is stated, and for
-/// numbers without a meaning. `format` is OpenImageIO's name. XMP and texts do not count.
+/// a TIFF, the line of a Radiance file that names its axes, and the header of a DPX. kUpright for other formats, if nothing is
+/// stated, and for numbers without a meaning. `format` is OpenImageIO's name. XMP and texts do not count. OpenImageIO itself
+/// undoes the orientation of a TGA.
 int stated_orientation(std::string_view file, std::string_view format, std::size_t page = 0);
 
 /// What is left of the orientation of a TIFF's page after OpenImageIO has read it. It reads YCbCr and some JPEGs by

@@ -212,6 +212,75 @@ TEST_F(Orientation, OfAWebPIsThatOfItsExif) {
     }
 }
 
+TEST_F(Orientation, OfADpxIsThatOfItsHeader) {
+  // SMPTE ST 268: along a line, then from line to line.
+  constexpr std::array<std::string_view, 8> kFields{
+      "left to right, top to bottom", "right to left, top to bottom",
+      "left to right, bottom to top", "right to left, bottom to top",
+      "top to bottom, left to right", "top to bottom, right to left",
+      "bottom to top, left to right", "bottom to top, right to left"};
+  // Where the first line and the first value of a line are seen, as in stored().
+  constexpr std::array<std::string_view, 8> kSeen{
+      "left to right, top to bottom", "right to left, top to bottom",
+      "right to left, bottom to top", "left to right, bottom to top",
+      "top to bottom, left to right", "top to bottom, right to left",
+      "bottom to top, right to left", "bottom to top, left to right"};
+  for (const bool little : {false, true})
+    expect_upright(".dpx", [&](const Pixels& pixels, int orientation) {
+      std::string bytes =
+          dpx_file(std::uint32_t(pixels.width), std::uint32_t(pixels.height), pixels.bytes());
+      const auto* const field = std::ranges::find(kFields, kSeen[std::size_t(orientation) - 1]);
+      bytes[769] = char(field - kFields.begin());
+      if (little)
+        for (const auto& [at, size] : {std::pair(0, 4),
+                                       {4, 4},
+                                       {16, 4},
+                                       {24, 4},
+                                       {28, 4},
+                                       {768, 2},
+                                       {770, 2},
+                                       {772, 4},
+                                       {776, 4},
+                                       {784, 4},
+                                       {788, 4},
+                                       {792, 4},
+                                       {804, 2},
+                                       {806, 2},
+                                       {808, 4}})
+          std::reverse(bytes.begin() + at, bytes.begin() + at + size);
+      return bytes;
+    });
+  std::string odd = dpx_file(4, 2, std::string(24, 'x'));
+  for (const int field : {8, 255}) {
+    odd[769] = char(field);
+    EXPECT_EQ(read_picture(file("odd.dpx", odd), "").source.orientation, 1) << field;
+  }
+}
+
+TEST_F(Orientation, OfATgaIsUndoneOnce) {
+  // Bits 4 and 5 of its descriptor: the first value is at the right, the first row at the top.
+  for (const int bits : {0, 0x10, 0x20, 0x30})
+    for (const bool run_lengths : {false, true}) {
+      const Pixels shown = random_pixels(side(), side());
+      const auto encode = [&](const Pixels& rows, int descriptor) {
+        std::string data;
+        for (const std::string& pixel : rows.values) {
+          if (run_lengths) data += '\0';
+          data.append(pixel.rbegin(), pixel.rend());
+        }
+        std::string bytes = tga_file(
+            {.width = rows.width, .height = rows.height, .run_lengths = run_lengths, .data = data});
+        bytes[17] = char(descriptor);
+        return bytes;
+      };
+      const bool is_mirrored = (bits & 0x10) != 0, is_from_top = (bits & 0x20) != 0;
+      const int orientation = is_from_top ? (is_mirrored ? 2 : 1) : (is_mirrored ? 3 : 4);
+      const Image upright = read_image(file("upright.tga", encode(shown, 0x20)));
+      const Image turned = read_image(file("turned.tga", encode(stored(shown, orientation), bits)));
+      EXPECT_EQ(values(turned), values(upright)) << bits;
+    }
+}
+
 TEST_F(Orientation, OfARadianceFileIsThatOfItsAxes) {
   // Y points up. The first axis is that of the stored rows.
   for (const bool x_first : {false, true})
