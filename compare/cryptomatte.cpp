@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "compare/mask.hpp"
+#include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/contained_reader.hpp"
 #include "core/text.hpp"
@@ -122,7 +123,12 @@ std::vector<std::string> cryptomatte_layers(const PictureSource& source,
 }
 
 CoveredPixels read_cryptomatte(const std::filesystem::path& file, const PictureSource& source,
-                               const CryptomatteRank& rank, const ComparisonOptions& options) {
+                               const CryptomatteRank& rank, const ComparisonOptions& options,
+                               const std::optional<PixelWindow>& window) {
+  const auto part_of = [&](Picture picture) {
+    if (window) return all_data(picture, *window);
+    return options.crop ? cut(std::move(picture.image), *options.crop) : std::move(picture.image);
+  };
   std::map<int, std::string> layers{{rank.rank, source.layer}};
   for (const std::string& layer : source.layers)
     if (const auto one = rank_of_name(layer, source, rank, false)) layers.try_emplace(*one, layer);
@@ -138,11 +144,8 @@ CoveredPixels read_cryptomatte(const std::filesystem::path& file, const PictureS
     for (std::size_t i = 0; i < read.manifests.size() && result.names.empty(); ++i)
       if (is_same_cryptomatte(read.cryptomattes[i], rank.name))
         result.names = records::object_names(read.manifests[i]);
-    Image pairs =
-        options.crop ? cut(std::move(colours.image), *options.crop) : std::move(colours.image);
-    Image shares = options.crop && alpha.image.pixel_count() > 0
-                       ? cut(std::move(alpha.image), *options.crop)
-                       : std::move(alpha.image);
+    const Image pairs = part_of(std::move(colours));
+    const Image shares = alpha.image.pixel_count() > 0 ? part_of(std::move(alpha)) : Image();
     result.width = pairs.width();
     result.height = pairs.height();
     const bool has_second = shares.pixel_count() == pairs.pixel_count();

@@ -34,9 +34,11 @@ std::optional<CryptomatteRank> cryptomatte_of(const PictureSource& a, const Pict
 std::vector<std::string> cryptomatte_layers(const PictureSource& source,
                                             const CryptomatteRank& rank);
 
-/// Reads all ranks, cut to the options' part. Errors as read_picture(); Error(kInput) too if ranks differ in size.
+/// Reads all ranks, cut to the options' part; or all their data on a window of compare/overscan.hpp. Errors as read_picture();
+/// Error(kInput) too if ranks differ in size.
 CoveredPixels read_cryptomatte(const std::filesystem::path& file, const PictureSource& source,
-                               const CryptomatteRank& rank, const ComparisonOptions& options);
+                               const CryptomatteRank& rank, const ComparisonOptions& options,
+                               const std::optional<PixelWindow>& window = {});
 
 /// Compares both, pixel by pixel. A coverage that is not finite makes the verdict non-finite. Errors as compare().
 Comparison compare_cryptomattes(const CoveredPixels& a, const CoveredPixels& b,

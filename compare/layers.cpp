@@ -101,8 +101,9 @@ std::optional<LayerComparison> find_lost_alpha(const fs::path& a, const fs::path
   LayerComparison layer{name, has_a ? pair.a.source : source_a, has_a ? source_b : pair.a.source};
   layer.type = LayerType::kAlpha;
   layer.problem =
-      fmt::format("only {} has this alpha, and {} pixels of it are not 1, the least {:.3g}",
-                  has_a ? 'a' : 'b', pixels, least);
+      fmt::format("only {} has this alpha, and {} of it {} not 1, the least {:.3g}",
+                  has_a ? 'a' : 'b', pixels == 1 ? "1 pixel" : fmt::format("{} pixels", pixels),
+                  pixels == 1 ? "is" : "are", least);
   return layer;
 }
 
@@ -300,8 +301,11 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
   left.mip_levels = std::max(source_a.mip_levels, source_b.mip_levels) - 1;
   const auto overscan = find_overscan(source_a, source_b);
   const auto rank = cryptomatte_of(source_a, source_b, options);
-  if (options.noise || options.crop || rank) {
+  if (options.noise || options.crop) {
     left.overscan_pixels = overscan ? overscan->pixels : 0;
+  } else if (overscan && rank) {
+    result.compared.push_back(
+        compare_cryptomatte_overscan(*rank, a, b, {source_a, source_b}, *overscan, options));
   } else if (overscan) {
     PicturePair stored = picture;
     if (is_identifier) read_again_as_stored(stored, a.string(), b.string());
@@ -337,6 +341,10 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
         layer.type = LayerType::kIdentifier;
         layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
         result.compared.push_back(std::move(layer));
+        const auto outside = options.crop ? std::nullopt : find_overscan(of.a, of.b);
+        if (outside)
+          result.compared.push_back(
+              compare_cryptomatte_overscan(*of_rank, a, b, of, *outside, options));
         take_ranks(of, *of_rank);
         continue;
       }

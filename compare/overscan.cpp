@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/cryptomatte.hpp"
 #include "compare/layer_types.hpp"
 
 namespace lobelia {
@@ -36,12 +37,6 @@ PixelWindow common(const PixelWindow& a, const PixelWindow& b) {
 bool contains(const PixelWindow& window, int x, int y) {
   return x >= window.x && x < window.x + window.width && y >= window.y &&
          y < window.y + window.height;
-}
-
-Image all_data(const Picture& picture, const PixelWindow& window) {
-  if (picture.overscan.pixel_count() == 0)
-    return place(picture.image, at_origin(picture.source.display), window);
-  return place(picture.overscan, relative_data(picture.source), window);
 }
 
 PixelFlags widened(const PixelFlags& mask, const PixelWindow& display, const PixelWindow& window) {
@@ -103,6 +98,12 @@ std::optional<Overscan> find_overscan(const PictureSource& a, const PictureSourc
                   outside(data_a) + outside(data_b) - outside(common(data_a, data_b))};
 }
 
+Image all_data(const Picture& picture, const PixelWindow& window) {
+  if (picture.overscan.pixel_count() == 0)
+    return place(picture.image, at_origin(picture.source.display), window);
+  return place(picture.overscan, relative_data(picture.source), window);
+}
+
 LayerComparison compare_overscan(const std::string& layer, const PicturePair& pair,
                                  const Overscan& overscan, const ComparisonOptions& options) {
   const PixelWindow& window = overscan.window;
@@ -122,6 +123,25 @@ LayerComparison compare_overscan(const std::string& layer, const PicturePair& pa
     result.identical = true;
   else
     result.comparison = compare_values(a, b, pair.a.source, pair.b.source, result.type, on_all);
+  return result;
+}
+
+LayerComparison compare_cryptomatte_overscan(const CryptomatteRank& rank,
+                                             const std::filesystem::path& file_a,
+                                             const std::filesystem::path& file_b,
+                                             const PicturePairSource& pair,
+                                             const Overscan& overscan,
+                                             const ComparisonOptions& options) {
+  const PixelWindow& window = overscan.window;
+  LayerComparison result{rank.name, pair.a, pair.b};
+  result.overscan = window;
+  result.type = LayerType::kIdentifier;
+  result.problem = window_problem("the window of all data", window);
+  if (!result.problem.empty()) return result;
+  const ComparisonOptions on_all = on_window(options, at_origin(pair.a.display), window);
+  result.comparison =
+      compare_cryptomattes(read_cryptomatte(file_a, pair.a, rank, on_all, window),
+                           read_cryptomatte(file_b, pair.b, rank, on_all, window), on_all);
   return result;
 }
 

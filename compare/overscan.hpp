@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/layers.hpp"
+#include "core/layer_type.hpp"
 
 namespace lobelia {
 
@@ -15,8 +16,19 @@ struct Overscan {
 /// Empty if all data of both lie in the display window.
 std::optional<Overscan> find_overscan(const PictureSource& a, const PictureSource& b);
 
+/// The picture and its overscan, on such a window; 0 where it has no data.
+Image all_data(const Picture& picture, const PixelWindow& window);
+
 /// Compares all data on the window. Masks have nothing outside the display window.
 LayerComparison compare_overscan(const std::string& layer, const PicturePair& pair,
                                  const Overscan& overscan, const ComparisonOptions& options);
+
+/// The same of all ranks of a Cryptomatte; `pair` has how one of them was read. Where there are no data, there is no object.
+LayerComparison compare_cryptomatte_overscan(const CryptomatteRank& rank,
+                                             const std::filesystem::path& file_a,
+                                             const std::filesystem::path& file_b,
+                                             const PicturePairSource& pair,
+                                             const Overscan& overscan,
+                                             const ComparisonOptions& options);
 
 }  // namespace lobelia

@@ -90,6 +90,53 @@ TEST_F(Cryptomatte, CountsThePixelsOfExchangedObjects) {
   EXPECT_THAT(layer.comparison->finding, HasSubstr("'cube\\n'")) << "one line";
 }
 
+TEST_F(Cryptomatte, CountsOutsideOfTheDisplayWindowToo) {
+  constexpr int kBorder = 2, kWide = kSide + 2 * kBorder;
+  /// `outside`: the object beyond the display window; 0 for none.
+  const auto write = [&](const std::string& name, bool has_overscan, std::uint32_t outside) {
+    const auto display = window(0, 0, kSide, kSide);
+    const auto data = has_overscan ? window(-kBorder, -kBorder, kWide, kWide) : display;
+    Ranks ranks(2);
+    for (int y = data.min.y; y <= data.max.y; ++y)
+      for (int x = data.min.x; x <= data.max.x; ++x) {
+        const bool inside = x >= 0 && y >= 0 && x < kSide && y < kSide;
+        const std::uint32_t id = inside ? kBall : outside;
+        ranks[0].push_back({id, id == 0 ? 0.0f : 1.0f});
+        ranks[1].emplace_back();
+      }
+    auto all = channels(ranks);
+    for (const char* letter : {"R", "G", "B"})
+      all.push_back({letter, std::vector<float>(ranks[0].size(), 0.5f)});
+    write_exr_parts(path(name), {{.data = data, .display = display, .channels = all}});
+  };
+  const auto verdicts = [&] {
+    std::vector<Verdict> found;
+    for (const LayerComparison& layer : compare_all().compared)
+      if (layer.name == "crypto") found.push_back(layer.verdict());
+    return found;
+  };
+  write("b.exr", true, kCube);
+  write("a.exr", true, kCube);
+  EXPECT_EQ(verdicts(), (std::vector{Verdict::kPass, Verdict::kPass}));
+  write("a.exr", true, kFloor);
+  EXPECT_EQ(verdicts(), (std::vector{Verdict::kPass, Verdict::kDiffers}));
+  const LayerComparison outside = compare_all().compared.back();
+  EXPECT_EQ(outside.title(), "overscan of layer crypto (identifier)");
+  EXPECT_EQ(value(outside, "identifier.pixels"), kWide * kWide - kPixels);
+  write("a.exr", false, 0);
+  EXPECT_EQ(verdicts(), (std::vector{Verdict::kPass, Verdict::kDiffers})) << "b alone has objects";
+  write("b.exr", true, 0);
+  EXPECT_EQ(verdicts(), (std::vector{Verdict::kPass, Verdict::kPass})) << "no object, as no data";
+  // As the picture itself.
+  write("a.exr", true, kFloor);
+  write("b.exr", true, kCube);
+  PicturePair pair = read_pair(path("a.exr"), path("b.exr"), parse_layer_names("crypto00"));
+  const OtherLayers others = compare_others(path("a.exr"), path("b.exr"), pair, {}, options());
+  ASSERT_EQ(others.compared.size(), 1u);
+  EXPECT_EQ(others.compared.front().verdict(), Verdict::kDiffers);
+  EXPECT_EQ(others.not_compared.overscan_pixels, 0);
+}
+
 TEST_F(Cryptomatte, IsASetWhateverTheOrderOfItsRanks) {
   std::mt19937 random(6);
   Ranks b(4, std::vector<Share>(kPixels));
