@@ -6,10 +6,12 @@
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/replaced_references.hpp"
+#include "compare/cryptomatte.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/layer_sensitivity.hpp"
 #include "compare/layer_types.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/set/unjudged_limits.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/scratch_memory.hpp"
@@ -46,6 +48,7 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   FilesTogether files;
   std::vector<Change> changes;
   LayerType type = LayerType::kColour;
+  std::vector<std::string> unused;
   ThreadLimit(options.choice.threads).run([&] {
     PicturePair pictures{read_picture(picture, job.layers.layer.a), {}};
     pictures.b = pictures.a;
@@ -54,6 +57,9 @@ ExitCode run_sensitivity(const CompareArguments& options) {
     take_part(pictures, picture, picture, comparison);
     type = type_of_layers(pictures.b.source, pictures.b.source, comparison);
     changes = layer_sensitivity(pictures.b, picture, comparison);
+    const bool is_cryptomatte =
+        cryptomatte_of(pictures.b.source, pictures.b.source, comparison).has_value();
+    unused = limits_of_other_types(comparison.limits, type, is_cryptomatte);
   });
   const bool as_expected = are_as_expected(changes);
   const ExitCode code = as_expected ? ExitCode::kSuccess : ExitCode::kDiffers;
@@ -77,6 +83,9 @@ ExitCode run_sensitivity(const CompareArguments& options) {
     fmt::print("  {:<{}}{:<{}}{}\n", change.name, width, verdict_name(change.verdict),
                why.empty() ? 0 : 12, why);
   }
+  if (!unused.empty())
+    fmt::print("\n  not used, because this layer is of type {}: limits on {}\n",
+               layer_type_name(type), fmt::join(unused, ", "));
   fmt::print("\n{}\n", as_expected ? "These limits find what they should."
                                    : "These limits do not find what they should.");
   return code;

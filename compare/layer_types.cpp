@@ -132,12 +132,16 @@ LayerType type_of_layers(const PictureSource& a, const PictureSource& b,
   return layer_type(a) == LayerType::kIdentifier ? LayerType::kIdentifier : layer_type(b);
 }
 
+bool can_judge(LayerType type, std::string_view metric, bool has_coverage) {
+  const Metric* found = find_metric(metric);
+  return !found || is_measured_of(type, *found, has_coverage);
+}
+
 ComparisonOptions options_of_type(LayerType type, const ComparisonOptions& options,
                                   bool has_coverage) {
   ComparisonOptions own = options;
   const auto is_of_others = [&](const MetricLimit& limit) {
-    const Metric* metric = find_metric(limit.metric);
-    return metric && !is_measured_of(type, *metric, has_coverage);
+    return !can_judge(type, limit.metric, has_coverage);
   };
   std::erase_if(own.limits, is_of_others);
   std::erase_if(own.warnings, is_of_others);
@@ -214,7 +218,8 @@ std::optional<ExchangedIdentifiers::Most> ExchangedIdentifiers::most() const {
 }
 
 std::string exchange_text(const std::string& in_a, const std::string& in_b, std::int64_t pixels) {
-  return fmt::format("a has {} where b has {}, in {} pixels", in_a, in_b, pixels);
+  return fmt::format("a has {} where b has {}, in {} pixel{}", in_a, in_b, pixels,
+                     pixels == 1 ? "" : "s");
 }
 
 }  // namespace lobelia

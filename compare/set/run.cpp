@@ -12,6 +12,7 @@
 
 #include "compare/highlight_region.hpp"
 #include "compare/require_same_size.hpp"
+#include "compare/set/unjudged_limits.hpp"
 #include "core/for_each_whole.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
@@ -226,6 +227,7 @@ PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pict
   prepare(pictures, pair, "", job, options);
   judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
   compare_rest(pair, pictures, job, options);
+  require_judged_limits(job, {&pair, 1});
   return pair;
 }
 
@@ -234,13 +236,15 @@ PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair
   ComparisonOptions options = job.comparison;
   prepare(pictures, pair, "", job, options);
   judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
-  if (!alpha) return pair;
-  OtherLayers& others = pair.layers.emplace();
-  if (job.layers.ignore_alpha || options.noise)
-    others.not_compared.alpha = true;
-  else
-    others.compared.push_back(
-        compare_alpha("A", *std::move(alpha), pair.a, pair.b, std::move(options)));
+  if (alpha) {
+    OtherLayers& others = pair.layers.emplace();
+    if (job.layers.ignore_alpha || options.noise)
+      others.not_compared.alpha = true;
+    else
+      others.compared.push_back(
+          compare_alpha("A", *std::move(alpha), pair.a, pair.b, std::move(options)));
+  }
+  require_judged_limits(job, {&pair, 1});
   return pair;
 }
 
@@ -298,6 +302,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
     }
     done(++count);
   });
+  require_judged_limits(job, report.pairs);
   return report;
 }
 

@@ -30,7 +30,7 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job, const P
 /// Reads both files as they are: the chosen layer, whole. Throws as read_pair().
 PicturePair read_two(const CompareJob& job, const PairReport& pair);
 /// Compares two pictures that were read by read_two(), and cuts them to what is compared, and the files' other layers.
-/// `pair` has the files. Throws as compare_pictures().
+/// `pair` has the files. Throws as compare_pictures() and require_judged_limits() (compare/set/unjudged_limits.hpp).
 PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures);
 /// The same of pictures in memory, which messages name as `pair` does. `alpha` is judged where there is one.
 PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair& pictures,
@@ -41,7 +41,7 @@ using LookAtPair = std::function<void(const PairReport& pair, const Image& a, co
 
 /// Compares all pairs, each with the reference that it fits best. A pair that cannot be compared has its error in the
 /// report, and the others go on. An automatic range of exposures becomes one that holds those of all references. Throws
-/// what `look` throws, if that is no Error(kInput).
+/// what `look` throws, if that is no Error(kInput), and as require_judged_limits() does.
 ///
 /// Calls done(pairs so far) after each, from any thread.
 SetReport compare_pairs(const CompareJob& job, const Pairing& pairing,

@@ -218,7 +218,7 @@ TEST_F(ComparePictures, LayersHaveATypeThatEveryReportNames) {
   EXPECT_EQ(layers["Z"]["metrics"]["depth.background"], 1);
   EXPECT_EQ(layers["id"]["type"], "identifier");
   EXPECT_EQ(layers["id"]["metrics"]["identifier.pixels"], 1);
-  EXPECT_EQ(layers["id"]["finding"], "a has 8 where b has 7, in 1 pixels");
+  EXPECT_EQ(layers["id"]["finding"], "a has 8 where b has 7, in 1 pixel");
   EXPECT_EQ(layers["mine"]["type"], "colour");
   EXPECT_FALSE(made.contains("type")) << "the picture is a colour";
   EXPECT_THAT(
