@@ -50,18 +50,20 @@ std::optional<Fault> clipping_of(const Image& faulty, const Image& other) {
   constexpr double kBeyond = 1.01, kLeastSpread = 1.05, kRelative = 0.01, kAbsolute = 0.002;
   constexpr std::size_t kFewest = 5;
   if (!(level > 0)) return std::nullopt;
-  ValueSpan beyond;
+  ValueSpan beyond, below;
   std::size_t off = 0;
   all_values(faulty, other, [&](double value, double truth) {
     const double tolerance = kRelative * std::abs(truth) + kAbsolute * std::min(level, 1.0);
+    if (kLeastSpread * value < level && value > 0) below.add(value);
     if (value == level && truth > kBeyond * level)
       beyond.add(truth);
     else
       off += std::abs(value - std::min(truth, level)) > tolerance;
     return true;
   });
-  if (beyond.count < kFewest || beyond.most < kLeastSpread * beyond.least ||
-      double(off) > kMostOff * double(beyond.count))
+  // A flat picture lacks the other's highlights; nothing says that it cut them off.
+  if (below.count < kFewest || beyond.count < kFewest ||
+      beyond.most < kLeastSpread * beyond.least || double(off) > kMostOff * double(beyond.count))
     return std::nullopt;
   Fault fault;
   fault.kind = "clipped";

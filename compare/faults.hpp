@@ -3,7 +3,7 @@
 // A name has to explain the pictures, not only fit a figure, so that it is seldom wrong:
 //   clipped           every value of one picture is the other's, cut off at a level: at least 5 values lie exactly at it where
 //                     the other's go on and differ among themselves by 5 %; all below the level agree within
-//                     1 % + 0.002, which includes the rounding of 8 bits;
+//                     1 % + 0.002, which includes the rounding of 8 bits, and at least 5 of them are 5 % darker and not 0;
 //   encoded as sRGB   every value of one picture is the other's by sRGB's curve, within 0.003: at least 32 values, from
 //                     0.02 to 0.9 and spread by a factor of 2;
 //   one bright pixel  of one picture is 20 times as far from the other as every other pixel is, and 5 times as bright as its

@@ -207,6 +207,16 @@ TEST_F(Faults, AreNoneOfALampThatIsDimmer) {
   EXPECT_THAT(kinds(dimmer, reference), IsEmpty());
 }
 
+TEST_F(Faults, AreNoneOfAFlatPictureThatLacksAHighlight) {
+  const Image flat = fixtures::flat(kWidth, kHeight, 0.1f, 0.1f, 0.1f);
+  Image highlight = flat;
+  for (int y = 5; y < 15; ++y)
+    for (int x = 5; x < 15; ++x)
+      for (float& value : highlight.pixel(x, y)) value += float(20 - std::hypot(x - 10, y - 10));
+  EXPECT_THAT(kinds(flat, highlight), IsEmpty()) << "clipped at 0.1";
+  EXPECT_THAT(kinds(highlight, flat), IsEmpty());
+}
+
 TEST_F(Faults, AreNoneOfAHighlightOfOnePixelThatBothHave) {
   Image reference = fixtures::flat(kWidth, kHeight, 0.1f, 0.1f, 0.1f);
   reference.pixel(9, 9)[0] = 100;
