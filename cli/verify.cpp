@@ -309,8 +309,9 @@ void add_verify_highlights(CLI::App& verify, ExitCode& exit_code) {
   add_json(group, options->json, "verify-highlights");
   options->limits.add_to(group);
   command->footer(
-      "The light has 5 to 50 000 times the highlight's peak. The highlight alone is dimmer, moved\n"
-      "or gone; rounding to half floats must pass. docs/limits.md says how each highlight is judged.\n"
+      "The light has 5 to 50 000 times the highlight's peak. The highlight alone is dimmer, moved,\n"
+      "gone, or only in the judged picture; rounding to half floats must pass. docs/limits.md says how\n"
+      "each highlight is judged.\n"
       "\n"
       "Exit codes: 0 every change is found, 1 some are missed or rounding is a difference; 2 usage,\n"
       "4 an output cannot be written.");

@@ -360,7 +360,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
       add_highlights_of_a(a, b, options.surfaces, may_differ, highlights);
     else
       highlights.clear();
-    result.highlights = highlights_record(judge_highlights(a, b, highlights));
+    const std::vector<JudgedHighlight> judged = judge_highlights(a, b, highlights);
+    result.highlights = highlights_record(judged);
     Viewing viewing = result.viewing;
     if (!need_display(list)) viewing.display = nullptr;
     PixelFlags highlight;
@@ -379,7 +380,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
                             options.mask,
                             options.noise ? &noise : nullptr,
                             highlight,
-                            highlights,
+                            judged,
                             further_as_shown(a, b, viewing),
                             have_equal_values(a, b),
                             options.layer};

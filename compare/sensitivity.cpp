@@ -121,6 +121,15 @@ Image with_highlight(const Image& image, const LocalHighlight& highlight, double
   return result;
 }
 
+/// Whether `a` clearly has a highlight that `b` lacks.
+bool has_highlight_alone(const Image& a, const Image& b, const ComparisonOptions& options) {
+  std::vector<LocalHighlight> highlights = find_highlights(b, options.surfaces);
+  add_highlights_of_a(a, b, options.surfaces, {}, highlights);
+  return std::ranges::any_of(highlights, [&](const LocalHighlight& one) {
+    return one.only_in_a && judge_highlight(a, b, one).badness() > 1;
+  });
+}
+
 Image as_8_bits(const Image& image) {
   const DisplayImage display = to_display(image, 0);
   Image result(image.width(), image.height());
@@ -198,6 +207,11 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
     add_highlight("5 % dimmer", 0.95, 0);
     add_highlight("30 % dimmer", 0.7, 0);
     add_highlight(fmt::format("moved {} pixels", kColumns), 1, columns);
+    const Image without = with_highlight(reference, one, 0, 0);
+    add_pair(
+        fmt::format("{} only in a", name_of_highlight(one.x, one.y)),
+        has_highlight_alone(reference, without, options) ? Expected::kFound : Expected::kEither,
+        reference, without, options);
   }
 
   add("rounded in the seventh digit", Expected::kNotFound,

@@ -33,8 +33,8 @@ double as_half(double value);
 
 /// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without its
 /// brightest highlight, with each of the eight largest highlights gone, dimmer and moved in turn, and copies that only round or
-/// have known noise. `options` without noise and without tolerance for
-/// edges. Throws Error(kInput) if the picture has no positive value or one that is not finite.
+/// have known noise. Each highlight is also alone in `a`: then the reference is compared with the copy that lacks it.
+/// `options` without noise and without tolerance for edges. Throws Error(kInput) if the picture has no positive value or one that is not finite.
 std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions& options);
 
 /// Whether every change is as expected.

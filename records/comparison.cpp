@@ -119,6 +119,17 @@ void define_comparison_tables(Tables& tables) {
           "the largest of its three errors in units of the default limits, after what noise and "
           "rounding explain; more than 1 differs")
         .at_least(0);
+    t.key("energyBeyond",
+          "size of energy without what noise, rounding and the roughness of b explain; of all "
+          "highlights the largest is highlights.energy")
+        .at_least(0);
+    t.key("widthBeyond", "the same of width, for highlights.width").at_least(0);
+    t.key("shiftBeyond", "the same of the distance of the centres, for highlights.shift")
+        .unit("pixels")
+        .at_least(0);
+    t.key("channel", "if energy is that of one colour, and of all together less than half as much")
+        .one_of(kChannels)
+        .if_any();
   });
   tables.define<NotMeasured>("A metric that could not be computed. A limit on it fails.");
   tables.define<Limit>("A limit, and what was measured.", [](auto& t) {

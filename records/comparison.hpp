@@ -11,6 +11,7 @@ inline constexpr std::string_view kVerdicts[] = {"pass", "differs",   "non-finit
 /// Whether limits should find a change.
 inline constexpr std::string_view kExpected[] = {"found", "not found", "either"};
 /// Whether a limit holds over the whole error bar.
+inline constexpr std::string_view kChannels[] = {"red", "green", "blue"};
 inline constexpr std::string_view kStandings[] = {"holds", "broken", "open"};
 
 /// Pixels x to x + width - 1, y to y + height - 1; y down.
@@ -88,6 +89,8 @@ struct LocalHighlight {
   std::int64_t pixels = 0;
   bool gone = false, only_in_a = false;
   double energy = 0, width = 0, shift_x = 0, shift_y = 0, excess = 0;
+  std::optional<double> energy_beyond, width_beyond, shift_beyond;
+  std::string channel;  ///< "red", "green", "blue", or empty
 };
 
 struct NotMeasured {

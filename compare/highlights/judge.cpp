@@ -62,16 +62,21 @@ Surroundings surroundings_of(const Image& a, const Image& b, const LocalHighligh
   return around;
 }
 
-double energy_error(const Image& a, const Image& b, const std::array<double, 3>& around,
-                    const LocalHighlight& highlight) {
+/// Sets energy and channel.
+void add_energy_error(const Image& a, const Image& b, const std::array<double, 3>& around,
+                      const LocalHighlight& highlight, LocalErrors& errors) {
   std::array<double, 3> differences{};
   for_pixels(highlight.core, b.width(), [&](std::size_t pixel, int, int) {
     for (std::size_t i = 0; i < 3; ++i)
       differences[i] +=
           double(a.values()[3 * pixel + i]) - double(b.values()[3 * pixel + i]) - around[i];
   });
-  return *std::ranges::max_element(differences, {}, [](double d) { return std::abs(d); }) /
-         highlight.energy;
+  constexpr double kOfAll = 0.5;
+  const auto largest =
+      std::ranges::max_element(differences, {}, [](double d) { return std::abs(d); });
+  errors.energy = *largest / highlight.energy;
+  if (std::abs(differences[0] + differences[1] + differences[2]) < 3 * kOfAll * std::abs(*largest))
+    errors.channel = std::size_t(largest - differences.begin());
 }
 
 bool holds(std::span<const PixelRun> runs, int x, int y) {
@@ -92,12 +97,13 @@ LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight
   LocalErrors errors;
   if (highlight.only_in_a) {
     // As much as b lacks of it.
-    errors.energy = -energy_error(b, a, surroundings_of(b, a, highlight).change, highlight);
+    add_energy_error(b, a, surroundings_of(b, a, highlight).change, highlight, errors);
+    errors.energy = -errors.energy;
     errors.energy_beyond = beyond(std::abs(errors.energy), highlight.energy_slack);
     return errors;
   }
   const auto& [level, around] = surroundings_of(a, b, highlight);
-  errors.energy = energy_error(a, b, around, highlight);
+  add_energy_error(a, b, around, highlight, errors);
   errors.energy_beyond = beyond(std::abs(errors.energy), highlight.energy_slack);
   // Each over the light around it: a part of the tail is in that, which dims with the highlight.
   Moments in_a, in_b, over_skirt;
@@ -144,9 +150,16 @@ void add_highlights_of_a(const Image& a, const Image& b, std::span<const std::ui
 
 std::vector<JudgedHighlight> judge_highlights(const Image& a, const Image& b,
                                               std::span<const LocalHighlight> highlights) {
-  std::vector<JudgedHighlight> judged(highlights.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, highlights.size(), [&](std::size_t i) {
-    judged[i] = {&highlights[i], judge_highlight(a, b, highlights[i])};
+  std::vector<JudgedHighlight> judged;
+  for (const LocalHighlight& one : highlights) judged.push_back({&one, {}});
+  return judge_again(a, b, judged);
+}
+
+std::vector<JudgedHighlight> judge_again(const Image& a, const Image& b,
+                                         std::span<const JudgedHighlight> highlights) {
+  std::vector<JudgedHighlight> judged(highlights.begin(), highlights.end());
+  oneapi::tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
+    judged[i].errors = judge_highlight(a, b, *judged[i].highlight);
   });
   std::ranges::stable_sort(judged, std::ranges::greater{},
                            [](const JudgedHighlight& one) { return one.errors.badness(); });

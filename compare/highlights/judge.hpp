@@ -17,6 +17,8 @@
 // Beyond:       what exceeds the slack of the highlight (slack.hpp).
 #pragma once
 
+#include <optional>
+
 #include "compare/highlights/find.hpp"
 
 namespace lobelia {
@@ -27,6 +29,8 @@ inline constexpr double kEnergyLimit = 0.03, kWidthLimit = 0.03, kShiftLimit = 0
 struct LocalErrors {
   double energy = 0, width = 0;     ///< a / b - 1
   double shift_x = 0, shift_y = 0;  ///< pixels, to the right and down
+  /// 0, 1 or 2 if that of R, G or B is the largest, and those of all together are less than half of it.
+  std::optional<std::size_t> channel = {};
   bool gone = false;
   double energy_beyond = 0, width_beyond = 0, shift_beyond = 0;  ///< sizes, less the slack
 
@@ -52,5 +56,8 @@ void add_highlights_of_a(const Image& a, const Image& b, std::span<const std::ui
 /// The worst first; equally bad ones in the order given.
 std::vector<JudgedHighlight> judge_highlights(const Image& a, const Image& b,
                                               std::span<const LocalHighlight> highlights);
+/// The same highlights in other pictures of their size.
+std::vector<JudgedHighlight> judge_again(const Image& a, const Image& b,
+                                         std::span<const JudgedHighlight> highlights);
 
 }  // namespace lobelia

@@ -15,6 +15,12 @@ std::string short_number(double value) {
   return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
+/// "4 pixels", "1 pixel"
+std::string pixels_text(double distance) {
+  const std::string number = short_number(std::abs(distance));
+  return number + (number == "1" ? " pixel" : " pixels");
+}
+
 /// A narrow highlight may lie on a broad one, and both have one brightest pixel.
 bool has_narrower_on_it(const records::LocalHighlight& one,
                         std::span<const records::LocalHighlight> all) {
@@ -35,17 +41,18 @@ std::string sentence_on(const records::LocalHighlight& one,
   // Smaller errors are said to be none.
   constexpr double kLeastShare = 0.001, kLeastShift = 0.05;
   if (std::abs(one.energy) >= kLeastShare)
-    parts.push_back(
-        fmt::format("has {} % {} light", per_cent(one.energy), one.energy > 0 ? "more" : "less"));
+    parts.push_back(fmt::format("has {} % {} {}{}light", per_cent(one.energy),
+                                one.energy > 0 ? "more" : "less", one.channel,
+                                one.channel.empty() ? "" : " "));
   if (std::abs(one.width) >= kLeastShare)
     parts.push_back(
         fmt::format("is {} % {}", per_cent(one.width), one.width > 0 ? "wider" : "narrower"));
   if (std::abs(one.shift_x) >= kLeastShift)
-    parts.push_back(fmt::format("lies {} pixels to the {}", short_number(std::abs(one.shift_x)),
+    parts.push_back(fmt::format("lies {} to the {}", pixels_text(one.shift_x),
                                 one.shift_x > 0 ? "right" : "left"));
   if (std::abs(one.shift_y) >= kLeastShift)
-    parts.push_back(fmt::format("lies {} pixels {}", short_number(std::abs(one.shift_y)),
-                                one.shift_y > 0 ? "down" : "up"));
+    parts.push_back(
+        fmt::format("lies {} {}", pixels_text(one.shift_y), one.shift_y > 0 ? "down" : "up"));
   return fmt::format("{} {}", text, fmt::join(parts, ", "));
 }
 
@@ -57,7 +64,9 @@ std::vector<records::LocalHighlight> highlights_record(std::span<const JudgedHig
     records.push_back({highlight->x, highlight->y, highlight->peak, highlight->base,
                        std::int64_t(highlight->count), errors.gone, highlight->only_in_a,
                        errors.energy, errors.width, errors.shift_x, errors.shift_y,
-                       errors.badness()});
+                       errors.badness(), errors.energy_beyond, errors.width_beyond,
+                       errors.shift_beyond,
+                       std::string(errors.channel ? records::kChannels[*errors.channel] : "")});
   return records;
 }
 

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/highlights/judge.hpp"
 #include "compare/metrics/metric.hpp"
 
 namespace lobelia {
@@ -34,15 +33,14 @@ constexpr MetricOutput kHighlightsOutputs[] = {
 
 void measure_highlights(const MetricInput& input, std::span<double> values) {
   std::ranges::fill(values, 0);
-  const auto judged = judge_highlights(input.a, input.b, input.highlights);
-  for (const JudgedHighlight& one : judged) {
+  for (const JudgedHighlight& one : input.highlights) {
     values[0] = std::max(values[0], one.errors.energy_beyond);
     values[1] = std::max(values[1], one.errors.width_beyond);
     values[2] = std::max(values[2], one.errors.shift_beyond);
   }
-  values[3] = judged.front().highlight->x;
-  values[4] = judged.front().highlight->y;
-  values[5] = double(judged.size());
+  values[3] = input.highlights.front().highlight->x;
+  values[4] = input.highlights.front().highlight->y;
+  values[5] = double(input.highlights.size());
 }
 
 }  // namespace

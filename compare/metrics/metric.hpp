@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "compare/display_light.hpp"
-#include "compare/highlights/find.hpp"
+#include "compare/highlights/judge.hpp"
 #include "core/layer_type.hpp"
 #include "core/pixel_flags.hpp"
 
@@ -137,8 +137,9 @@ struct MetricInput {
   const NoiseOfPair* noise = nullptr;  ///< null if neither picture is known to have noise
   /// By pixel, not 0 in the highlight, before it is grown; empty if it was not asked for.
   std::span<const std::uint8_t> highlight = {};
-  /// Those of the reference, each by itself, and those that only a has; empty if they were not asked for.
-  std::span<const LocalHighlight> highlights = {};
+  /// Those of the reference, each judged by itself, and those that only a has, the worst first; empty if they were not
+  /// asked for.
+  std::span<const JudgedHighlight> highlights = {};
   std::vector<ShownPair> shown_further = {};  ///< at each exposure after the first
   bool equal = false;                         ///< every value of a is b's
   const LayerInput* layer = nullptr;          ///< null for colours

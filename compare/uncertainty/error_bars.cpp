@@ -210,6 +210,7 @@ NoisyFigures::NoisyFigures(std::span<const Metric* const> list, const MetricInpu
     const PixelFlags highlight = input.highlight.empty()
                                      ? PixelFlags()
                                      : highlight_region(noisy_a, noisy_b, options.surfaces);
+    const std::vector<JudgedHighlight> highlights = judge_again(noisy_a, noisy_b, input.highlights);
     MetricInput noisy{noisy_a,
                       noisy_b,
                       as_shown(noisy_a, viewing),
@@ -220,7 +221,7 @@ NoisyFigures::NoisyFigures(std::span<const Metric* const> list, const MetricInpu
                       input.mask,
                       nullptr,
                       highlight,
-                      input.highlights,
+                      highlights,
                       further_as_shown(noisy_a, noisy_b, viewing)};
     std::vector<std::pair<double, double>> found(figures.size(), {kNaN, kNaN});
     measure_each(list, noisy, [&](const Metric&, const MetricOutput& output, double value) {

@@ -21,8 +21,8 @@ struct Row {
 };
 
 /// Made scenes, each with a small light and one highlight: narrow, broad, elongated, on black and on lit surfaces, near the
-/// light and far. The highlight is 5 % and 30 % dimmer, moved by 4 pixels, and gone, alone; and once the picture is only
-/// rounded to half floats. All are compared as `lobelia compare` does without options. `on_progress` gets the share done.
+/// light and far. The highlight is 5 % and 30 % dimmer, moved by 4 pixels, gone, and
+/// only in the judged picture, alone; and once the picture is only rounded to half floats. All are compared as `lobelia compare` does without options. `on_progress` gets the share done.
 std::vector<Row> measure_table(const std::function<void(double)>& on_progress);
 
 std::string table_text(const std::vector<Row>& rows);

@@ -157,6 +157,52 @@ TEST(HighlightsTable, SaysWhichOnesTheReferenceLacks) {
   }
 }
 
+TEST(HighlightsTable, HasTheFiguresThatAreJudged) {
+  std::mt19937 random(61);
+  for (int round = 0; round < 20; ++round) {
+    const Beside made = random_case(random, 50);
+    Image rough = made.with(0.9, 0.7);
+    for (float& value : rough.values()) value *= 1 + 0.01f * (float(random() % 1000) / 1000 - 0.5f);
+    const Comparison comparison = judged(rough, made.with());
+    double energy = 0, width = 0, shift = 0;
+    for (const records::LocalHighlight& one : comparison.highlights) {
+      energy = std::max(energy, *one.energy_beyond);
+      width = std::max(width, *one.width_beyond);
+      shift = std::max(shift, *one.shift_beyond);
+      EXPECT_LE(*one.energy_beyond, std::abs(one.energy));
+    }
+    EXPECT_EQ(energy, comparison.value("highlights.energy"));
+    EXPECT_EQ(width, comparison.value("highlights.width"));
+    EXPECT_EQ(shift, comparison.value("highlights.shift"));
+  }
+}
+
+TEST(HighlightsTable, NamesTheColourWhereTheLightIsTheSame) {
+  const Beside made{{80, 60, 1, 9, 9}, 0.1, 0.1, 12, 12};
+  const Image reference = made.with();
+  const auto said = [&](double red, double green, double blue) {
+    Image changed = reference;
+    for (std::size_t i = 0; i < changed.values().size(); ++i)
+      changed.values()[i] *= float(i % 3 == 0 ? red : i % 3 == 1 ? green : blue);
+    const Comparison comparison = judged(changed, reference);
+    return sentences_on_highlights(comparison.highlights).at(0);
+  };
+  EXPECT_THAT(said(1.2, 0.9, 0.9), HasSubstr("% more red light"));
+  EXPECT_THAT(said(0.8, 1, 1.1), HasSubstr("% less red light"));
+  EXPECT_THAT(said(1, 0.99, 1.3), HasSubstr("% more blue light"));
+  EXPECT_THAT(said(1.2, 1.1, 1.1), HasSubstr("% more light"));
+}
+
+TEST(HighlightsTable, SaysOnePixel) {
+  records::LocalHighlight moved;
+  moved.shift_x = -1;
+  moved.shift_y = 2;
+  moved.excess = 4;
+  EXPECT_THAT(sentences_on_highlights(std::array{moved}),
+              ::testing::ElementsAre(
+                  "the highlight at (0, 0) lies 1 pixel to the left, lies 2 pixels down"));
+}
+
 TEST(HighlightsTable, TellsABroadHighlightFromTheNarrowOneOnIt) {
   records::LocalHighlight narrow;
   narrow.x = 142;
@@ -369,7 +415,7 @@ TEST(Sensitivity, ChangesEachHighlightInTurn) {
   const Beside made{{80, 60, 1, 5, 5}, 0.1, 800, 12, 12};
   ComparisonOptions options = usual_options();
   const auto changes = sensitivity(made.with(), options);
-  for (const char* how : {"gone", "5 % dimmer", "30 % dimmer", "moved 4 pixels"}) {
+  for (const char* how : {"gone", "5 % dimmer", "30 % dimmer", "moved 4 pixels", "only in a"}) {
     const std::string name = std::string("the highlight at (79, 59) ") + how;
     const auto change = std::ranges::find(changes, name, &Change::name);
     ASSERT_NE(change, changes.end()) << name;

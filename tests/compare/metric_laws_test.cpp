@@ -46,7 +46,8 @@ std::vector<double> measure(const Metric& metric, const Image& a, const Image& b
   MetricInput input = fixtures::input(a, b, &kTolerance);
   std::vector<LocalHighlight> highlights;
   if (metric.needs == Needs::kHighlights) highlights = find_highlights(b);
-  input.highlights = highlights;
+  const std::vector<JudgedHighlight> judged = judge_highlights(a, b, highlights);
+  input.highlights = judged;
   return measure(metric, input);
 }
 
