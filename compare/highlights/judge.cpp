@@ -20,6 +20,9 @@ constexpr double kLeastLeft = 0.5;
 /// judged picture has more of it.
 constexpr double kMostSlackOfNew = 0.075;
 
+/// A highlight with so many times the pixels of another is not the same but carries it.
+constexpr std::size_t kBroader = 4;
+
 /// Sums of a field over pixels: plain, times x, times y, times the squared distance from the centre.
 struct Moments {
   double sum = 0, x = 0, y = 0, spread = 0;
@@ -140,7 +143,8 @@ void add_highlights_of_a(const Image& a, const Image& b, std::span<const std::ui
     if (one.energy_slack > kMostSlackOfNew || !judge_highlight(b, a, one).gone) continue;
     const bool is_named =
         std::ranges::any_of(std::span(highlights).first(of_b), [&](const LocalHighlight& other) {
-          return holds(one.core, other.x, other.y) && judge_highlight(a, b, other).badness() > 1;
+          return other.count < kBroader * one.count && holds(one.core, other.x, other.y) &&
+                 judge_highlight(a, b, other).badness() > 1;
         });
     if (is_named) continue;
     one.only_in_a = true;

@@ -48,8 +48,8 @@ struct JudgedHighlight {
 
 /// Appends those of `a` that are gone in `b` and known twice as well as others must be, at most kMostHighlights.
 /// judge_highlight() then judges b by them: their energy in a is greater by the light that b lacks, in units of their own.
-/// Not those around a highlight of b that differs in any case. `highlights`: those of b, found with the same `where` and
-/// `noise`.
+/// Not those around a highlight of b that differs in any case, unless that is much broader. `highlights`: those of b, found
+/// with the same `where` and `noise`.
 void add_highlights_of_a(const Image& a, const Image& b, std::span<const std::uint8_t> where,
                          const HighlightNoise& noise, std::vector<LocalHighlight>& highlights);
 

@@ -177,6 +177,16 @@ TEST(HighlightsTable, HasTheFiguresThatAreJudged) {
   }
 }
 
+TEST(HighlightsTable, SaysThatABroadOneCarriesANarrowOneInAAlone) {
+  const Beside broad{{80, 60, 0.7, 40, 40}, 0.2, 800, 12, 12},
+      narrow{{80, 60, 2.5, 3, 3}, 0, 0, 12, 12};
+  const Image reference = broad.with(), highlight = narrow.with();
+  Image both = reference;
+  for (std::size_t i = 0; i < both.values().size(); ++i) both.values()[i] += highlight.values()[i];
+  const std::vector<std::string> said = sentences_on_highlights(judged(both, reference).highlights);
+  EXPECT_EQ(std::ranges::count(said, std::string("a has a highlight at (79, 59) that b lacks")), 1);
+}
+
 TEST(HighlightsTable, NamesTheColourWhereTheLightIsTheSame) {
   const Beside made{{80, 60, 1, 9, 9}, 0.1, 0.1, 12, 12};
   const Image reference = made.with();
