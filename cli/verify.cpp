@@ -268,6 +268,8 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
       "Write the pairs into folders in DIR, for another judge: NOISE-SIZE-SAMPLES-PICTURES/b1, "
       "b2, ... and CHANGE/a1, a2, ...");
   group.add_number("--seeds", options->measured.seeds, 1, 100000, "Pairs of each kind of noise");
+  group.add_number("--changed", options->measured.changed, 0, 100000,
+                   "Judge only so many of them with each change, too; 0: all");
   group.add(
       "--noise", options->noises, "NAME",
       fmt::format("This kind of noise alone: {}; may be given again", join(verdicts::kNoiseNames)));
@@ -285,7 +287,7 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
   options->limits.add_to(group);
   command->footer(
       "Each pair is judged as compare does by default: with both expectations equal, where different\n"
-      "is a false alarm, and with one picture dimmer or moved. docs/verdicts.md has the outcome.\n"
+      "is a false alarm, and with one picture dimmer, moved or wider. docs/verdicts.md has the outcome.\n"
       "A kind is outside if it has more false alarms than a chance of one and a half times the\n"
       "significance has but once in a thousand such tests.\n"
       "\n"

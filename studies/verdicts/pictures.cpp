@@ -23,14 +23,14 @@ class Uniform {
 };
 
 /// A ball with a highlight of peak 1 on a matt base, on black. u and v run from -1 to 1.
-double light_at(double u, double v) {
+double light_at(double u, double v, double wider) {
   const double middle = u * u + v * v;
   if (middle > 0.7) return 0;
   const double du = u - 0.2, dv = v + 0.15;
-  return 0.15 * (1 - middle) + std::exp(-30 * (du * du + dv * dv));
+  return 0.15 * (1 - middle) + std::exp(-30 / (wider * wider) * (du * du + dv * dv));
 }
 
-Image made(const Cell& cell, std::uint64_t seed) {
+Image made(const Cell& cell, std::uint64_t seed, double wider) {
   constexpr double kOfSample = 0.5;  // standard deviation of a sample
   constexpr double kShareOfFireflies = 0.02, kFirefly = 5;
   Uniform uniform(seed);
@@ -38,7 +38,8 @@ Image made(const Cell& cell, std::uint64_t seed) {
   Image image(cell.size, cell.size);
   for (int y = 0; y < cell.size; ++y)
     for (int x = 0; x < cell.size; ++x) {
-      const double light = light_at((x + 0.5) / cell.size * 2 - 1, (y + 0.5) / cell.size * 2 - 1);
+      const double light =
+          light_at((x + 0.5) / cell.size * 2 - 1, (y + 0.5) / cell.size * 2 - 1, wider);
       const std::uint64_t pixel = std::uint64_t(y) * std::uint64_t(cell.size) + std::uint64_t(x);
       double grey = 1, more = 0;
       if (cell.noise == Noise::kGrey) more = error * gaussian(seed, pixel);
@@ -57,8 +58,9 @@ Image made(const Cell& cell, std::uint64_t seed) {
   return image;
 }
 
-Scene scene_of(const Cell& cell, std::uint64_t seed) {
-  const HighlightChoice choice{"modified_phong", "cosine", "exact", 64};
+Scene scene_of(const Cell& cell, std::uint64_t seed, double wider) {
+  // The width of cos^n is in proportion to 1 / sqrt(n).
+  const HighlightChoice choice{"modified_phong", "cosine", "exact", 64 / (wider * wider)};
   const bool matt = cell.noise == Noise::kCycles;
   const Light ball = SphereLight{{2, 2.5, 2.5}, 0.6, {20, 16, 12}};
   const Light window = RectangleLight{{-2, 2, 2}, {0.5, 0, 0.5}, {0, -0.6, 0}, {9, 12, 15}};
@@ -91,17 +93,17 @@ Cycles::Cycles(const std::map<std::string, std::filesystem::path>& programs) {
 Cycles::~Cycles() = default;
 
 Image Cycles::render(const Cell& cell, std::uint64_t seed) {
-  ReferenceResult result = session_->render(scene_of(cell, seed));
+  ReferenceResult result = session_->render(scene_of(cell, seed, 1));
   if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
   return std::move(result.image);
 }
 
-Image picture_of(const Cell& cell, std::uint64_t seed, Cycles* cycles) {
+Image picture_of(const Cell& cell, std::uint64_t seed, Cycles* cycles, double wider) {
   if (cell.noise == Noise::kCycles) return cycles->render(cell, seed);
-  if (cell.noise != Noise::kRenders) return made(cell, mix(seed));
+  if (cell.noise != Noise::kRenders) return made(cell, mix(seed), wider);
   RenderOptions options;
   options.threads = 1;  // other pairs keep the other processors busy
-  return render(scene_of(cell, seed), options).image;
+  return render(scene_of(cell, seed, wider), options).image;
 }
 
 }  // namespace lobelia::verdicts

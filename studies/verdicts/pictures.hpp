@@ -49,8 +49,8 @@ class Cycles {
   std::string why_not_;
 };
 
-/// A picture of the cell. Different seeds are independent. `cycles` is needed for kCycles alone. Throws Error(kEngine) if a
-/// picture fails.
-Image picture_of(const Cell& cell, std::uint64_t seed, Cycles* cycles);
+/// A picture of the cell. Different seeds are independent. The highlight is `wider` times as wide; that of kCycles has no
+/// width. `cycles` is needed for kCycles alone. Throws Error(kEngine) if a picture fails.
+Image picture_of(const Cell& cell, std::uint64_t seed, Cycles* cycles, double wider = 1);
 
 }  // namespace lobelia::verdicts

@@ -38,7 +38,10 @@ studies::Table table_of(const records::VerifyVerdicts& verdicts) {
         fmt::format("{}{} of {}", cell.holds ? "" : "OUTSIDE ", none.different, none.pairs),
         cell.most_false};
     for (std::size_t i = 1; i < cell.changes.size(); ++i)
-      row.emplace_back(fmt::format("{} of {}", cell.changes[i].different, cell.changes[i].pairs));
+      row.emplace_back(
+          cell.changes[i].pairs == 0
+              ? ""
+              : fmt::format("{} of {}", cell.changes[i].different, cell.changes[i].pairs));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -88,7 +91,7 @@ std::vector<Chart> charts(const records::VerifyVerdicts& verdicts) {
     std::vector<ChartSeries>& all = charts.back().series;
     ChartSeries series{cell_name(cell), {}, {}, 1 + int(all.size()) % kStyles};
     for (const records::VerdictsOfChange& change : cell.changes)
-      if (change.change.empty() || change.dimmer > 0) {
+      if (change.pairs > 0 && (change.change.empty() || change.dimmer > 0)) {
         series.x.push_back(change.dimmer);
         series.y.push_back(double(change.different) / change.pairs);
       }

@@ -19,6 +19,9 @@ struct Change {
   std::string name;
   double dimmer = 0;
   int columns = 0;  ///< moved to the right by so many
+  double wider = 1;
+
+  bool fits(Noise noise) const { return wider == 1 || noise != Noise::kCycles; }
 };
 
 const std::vector<Change>& changes() {
@@ -27,13 +30,15 @@ const std::vector<Change>& changes() {
                                         {"5 % dimmer", 0.05, 0},
                                         {"10 % dimmer", 0.1, 0},
                                         {"30 % dimmer", 0.3, 0},
-                                        {"moved by a pixel", 0, 1}};
+                                        {"moved by a pixel", 0, 1},
+                                        {"10 % wider", 0, 0, 1.1}};
   return list;
 }
 
 /// "dimmer-5", "same"
 std::string folder_of(const Change& change) {
   if (change.columns > 0) return fmt::format("moved-{}", change.columns);
+  if (change.wider > 1) return fmt::format("wider-{:.0f}", 100 * (change.wider - 1));
   return change.dimmer > 0 ? fmt::format("dimmer-{:g}", 100 * change.dimmer) : "same";
 }
 
@@ -59,6 +64,7 @@ std::vector<Cell> cells_of(const Options& options) {
     add(48, 16, 2);
     add(48, 64, 4);
     if (options.small) continue;
+    add(48, 4, 2);
     add(48, 64, 2);
     add(48, 16, 9);
     add(24, 16, 2);
@@ -117,9 +123,11 @@ class Measurement {
       for (int seed = 0; seed < options_.seeds; ++seed) judge_one(seed);
     else
       oneapi::tbb::parallel_for(0, options_.seeds, judge_one);
-    for (std::size_t i = 0; i < changes().size(); ++i)
-      result.changes.push_back({changes()[i].name, changes()[i].dimmer, options_.seeds,
-                                counts[i][0], counts[i][1], counts[i][2]});
+    for (std::size_t i = 0; i < changes().size(); ++i) {
+      const int same = counts[i][0], undecided = counts[i][1], different = counts[i][2];
+      result.changes.push_back({changes()[i].name, changes()[i].dimmer,
+                                same + undecided + different, same, undecided, different});
+    }
     constexpr double kOnceInAThousand = 1e-3;
     const boost::math::binomial allowed(options_.seeds,
                                         std::min(1.0, kMostOfPromise * options_.significance));
@@ -132,18 +140,24 @@ class Measurement {
   /// Adds to the numbers of same, undecided and different, by change.
   void judge_pair(const Cell& cell, int seed,
                   std::vector<std::array<std::atomic<int>, 3>>& counts) {
-    std::vector<Image> a, b;
-    for (int r = 0; r < cell.replicates; ++r)
-      for (auto* side : {&a, &b})
-        side->push_back(
-            picture_of(cell, next_seed(seed, cell.replicates, r, side == &b), cycles_.get()));
+    const auto replicates = [&](bool of_b, double wider) {
+      std::vector<Image> pictures;
+      for (int r = 0; r < cell.replicates; ++r)
+        pictures.push_back(
+            picture_of(cell, next_seed(seed, cell.replicates, r, of_b), cycles_.get(), wider));
+      return pictures;
+    };
+    const std::vector<Image> a = replicates(false, 1), b = replicates(true, 1);
     const NoisyPicture reference = mean_of_replicates(b, false);
     write(b, cell, "b", seed);
     for (std::size_t i = 0; i < changes().size(); ++i) {
-      std::vector<Image> pictures;
-      for (const Image& image : a) pictures.push_back(changed(image, changes()[i]));
+      const Change& change = changes()[i];
+      if (!change.fits(cell.noise) || (i > 0 && options_.changed > 0 && seed >= options_.changed))
+        continue;
+      std::vector<Image> pictures = change.wider > 1 ? replicates(false, change.wider) : a;
+      for (Image& image : pictures) image = changed(image, change);
       NoisyPicture judged = mean_of_replicates(pictures, false);
-      write(pictures, cell, folder_of(changes()[i]) + "/a", seed);
+      write(pictures, cell, folder_of(change) + "/a", seed);
       ComparisonOptions options = judged_;
       options.noise->a = std::move(judged.noise);
       options.noise->b = reference.noise;

@@ -11,7 +11,8 @@
 namespace lobelia::verdicts {
 
 struct Options {
-  int seeds = 20;  ///< pairs of each cell
+  int seeds = 20;   ///< pairs of each cell
+  int changed = 0;  ///< of them so many are judged with each change, too; 0: all
   double significance = 0.01;
   int bootstraps = 0;         ///< 0: as `lobelia compare` has them
   bool small = false;         ///< two cells of each kind, without an engine
