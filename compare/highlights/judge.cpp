@@ -127,8 +127,9 @@ LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight
   if (of_change > 0) {
     const double wider = (scale * in_a.spread - in_b.spread) / of_change;
     errors.width = std::sqrt(std::max(0.0, 1 + wider)) - 1;
-    errors.width_beyond =
-        beyond(std::abs(errors.width), highlight.width_slack * highlight.spread / of_change);
+    // The slack is that of half the ratio, which the root exceeds where noise makes the highlight narrower.
+    const double size = std::min(std::abs(errors.width), std::abs(wider) / 2);
+    errors.width_beyond = beyond(size, highlight.width_slack * highlight.spread / of_change);
   }
   errors.shift_x = (scale * in_a.x - in_b.x) / highlight.light;
   errors.shift_y = (scale * in_a.y - in_b.y) / highlight.light;
