@@ -14,7 +14,6 @@
 #include "compare/judge_limits.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
-#include "compare/uncertainty/critical.hpp"
 #include "compare/uncertainty/z_test.hpp"
 #include "core/constants.hpp"
 #include "core/image_values.hpp"
@@ -138,8 +137,7 @@ std::vector<NotMeasured> all_not_measured(const MetricList& list, const MetricIn
 NoiseOfPair noise_of_pair(const ComparisonOptions& options) {
   if (!options.noise) return {};
   const NoiseOptions& noise = *options.noise;
-  return {noise.a ? &*noise.a : nullptr, noise.b ? &*noise.b : nullptr,
-          significance_of_each(options)};
+  return {noise.a ? &*noise.a : nullptr, noise.b ? &*noise.b : nullptr, judges_of(options).of_z};
 }
 
 records::Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOptions& options) {
@@ -149,13 +147,13 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOp
     return records::PictureNoise{one->freedom, one->shared, one->layer, one->fireflies,
                                  one->has_heavy_tails()};
   };
-  const double tests = count_of_tests(input.a.width(), input.a.height());
+  const int width = input.a.width(), height = input.a.height();
   return {.a = in_short(input.noise->a),
           .b = in_short(input.noise->b),
           .significance = noise.significance,
-          .judges = count_of_judges(options),
-          .tests = tests,
-          .each = sidak(input.noise->significance, tests),
+          .judges = judges_of(options).count(),
+          .tests = count_of_tests(width, height),
+          .each = level_of_single_values(width, height, input.noise->significance),
           .bootstraps = noise.bootstraps,
           .seed = noise.seed};
 }
@@ -391,7 +389,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
       const NoisyFigures figures(
           list, input, viewing, {options.noise->bootstraps, options.noise->seed, options.surfaces});
       result.error_bars = figures.bars();
-      bars_of_limits = figures.bars_of_limits(significance_of_each(options));
+      bars_of_limits = figures.bars_of_limits(judges_of(options).of_figure);
     }
   }
   const bool noisy = options.noise.has_value();

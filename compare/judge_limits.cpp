@@ -52,25 +52,28 @@ double more_samples(const MetricLimit& limit, double value, const ErrorBar* bar)
 
 }  // namespace
 
-int count_of_judges(const ComparisonOptions& options) {
-  std::set<std::string_view> judges;
+Judges judges_of(const ComparisonOptions& options) {
+  std::set<std::string_view> figures;
+  Judges judges;
   const auto add = [&](std::span<const MetricLimit> limits) {
     for (const MetricLimit& limit : limits)
-      judges.insert(find_metric(limit.metric)->needs == Needs::kNoise
-                        ? std::string_view("z")
-                        : std::string_view(limit.metric));
+      if (find_metric(limit.metric)->needs == Needs::kNoise)
+        judges.z = true;
+      else
+        figures.insert(limit.metric);
   };
   add(options.limits);
   if (options.default_limits) {
     add(default_limits());
     if (options.highlight) add(highlight_limits());
   }
-  if (options.limits.empty() || options.tolerance) judges.insert("z");
-  return int(judges.size());
-}
-
-double significance_of_each(const ComparisonOptions& options) {
-  return options.noise->significance / count_of_judges(options);
+  if (options.limits.empty() || options.tolerance) judges.z = true;
+  judges.figures = int(figures.size());
+  const double all = options.noise->significance;
+  const bool both = judges.z && judges.figures > 0;
+  judges.of_z = both ? all / 2 : all;
+  judges.of_figure = (both ? all / 2 : all) / std::max(1, judges.figures);
+  return judges;
 }
 
 std::vector<LimitResult> judge(std::span<const MetricLimit> limits, const Comparison& measured,

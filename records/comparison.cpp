@@ -152,10 +152,10 @@ void define_comparison_tables(Tables& tables) {
   });
   tables.define<Uncertainty>("How the noise of the pictures was taken into account.", [](auto& t) {
     t.key("significance", "chance that equal expectations are called different").between(0, 1);
-    t.key("judges", "limits that share it; all tests of single values and regions are one")
+    t.key("judges", "limits that share it; all tests of values and regions are one, which has half")
         .at_least(1);
-    t.key("tests", "values and regions that were tested").at_least(0);
-    t.key("each", "significance level of one test").between(0, 1);
+    t.key("tests", "values, regions and patterns that were tested").at_least(0);
+    t.key("each", "significance level of the test of a pixel's value").between(0, 1);
     t.key("bootstraps").at_least(4);
   });
   tables.define<ErrorBar>(

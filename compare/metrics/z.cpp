@@ -1,7 +1,7 @@
 // Differences beyond the noise, in pixels and in regions.
 //
 // Source:       compare/uncertainty/z_test.hpp: Student's t for each value, and for sums over squares of 2, 4, 8,
-//               ... pixels, with Sidak's correction for their number.
+//               ... pixels and over the whole picture, with Sidak's correction for their number.
 // Formula:      z.max is the largest |z|. At most the share `significance` of comparisons has a place beyond
 //               z.critical by chance. A limit on these asks whether a difference was found. The noisier the
 //               pictures, the fewer are found.
@@ -31,8 +31,8 @@ constexpr MetricOutput kZOutputs[] = {
     {"z.beyond.off_edge", "Of these, away from the edges", Unit::kCount, Better::kLower, false,
      "of these, away from the edges of the scene", "Not on an edge of the scene."},
     {"z.regions", "Regions beyond the noise", Unit::kCount, Better::kLower, false,
-     "regions of 2, 4, 8, ... pixels a side beyond",
-     "Squares of 2, 4, 8, ... pixels whose sum differs by more than noise explains."},
+     "regions of 2, 4, 8, ... pixels a side beyond, and patterns",
+     "Squares of 2, 4, 8, ... pixels, or sums over the picture, that differ by more than noise explains."},
     {"z.open", "Pixels that noise leaves open", Unit::kCount, Better::kNeither, false,
      "pixels that are not sure to lie within the tolerance",
      "Not sure to lie within the tolerance."}};

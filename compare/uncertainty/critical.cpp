@@ -20,9 +20,13 @@ double sidak(double significance, double tests) {
   return -std::expm1(std::log1p(-significance) / tests);
 }
 
-double equivalent_z(double t, double freedom) {
-  if (std::isinf(freedom) || std::isinf(t) || t == 0) return t;
-  const double tail = boost::math::cdf(complement(boost::math::students_t(freedom), std::abs(t)));
+double equivalent_z(double t, double freedom, double times) {
+  if ((std::isinf(freedom) && times == 1) || std::isinf(t) || t == 0) return t;
+  const double own =
+      std::isinf(freedom)
+          ? boost::math::cdf(complement(boost::math::normal(), std::abs(t)))
+          : boost::math::cdf(complement(boost::math::students_t(freedom), std::abs(t)));
+  const double tail = times * own;
   const double z =
       tail > 0 ? boost::math::quantile(complement(boost::math::normal(), tail)) : kRarest;
   return std::copysign(std::min(z, kRarest), t);

@@ -16,8 +16,9 @@ namespace lobelia {
 double sidak(double significance, double tests);
 
 /// The normal z that is as rare as Student's t with `freedom` degrees of freedom (infinite: t itself), with the sign of
-/// t. At most 38.4 for a finite t: a double cannot hold a rarer tail.
-double equivalent_z(double t, double freedom);
+/// t. With `times` in (0, 1], as rare as that share of its chance. At most 38.4 for a finite t: a double cannot hold a rarer
+/// tail.
+double equivalent_z(double t, double freedom, double times = 1);
 
 /// The |t| above which Student's t is rarer than `each`, two-sided. A table, fast enough for each pixel. Never less than
 /// Student's quantile, and at most 3 % more for one degree of freedom or more.

@@ -87,7 +87,8 @@ RegionNoise noise_in(Region region, const MetricInput& input) {
     double sum = 0;
     for (std::size_t pixel = 0; pixel < input.a.pixel_count(); ++pixel) {
       if (!is_in_region(region, input, pixel)) continue;
-      const double variance = one->own_variance(pixel);
+      double variance = 0;
+      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) variance += one->own_variance(i);
       sum += variance;
       squares += variance * variance / (one->freedom + 2);
     }
@@ -166,7 +167,7 @@ struct NoisyFigures::Figures {
     } else if (std::isfinite(figure.distance)) {
       high +=
           factor(noise, far, false) * worst([](const Spreads& s) { return s.noisier.deviation(); });
-      low = has_heavy_tails ? 0 : std::max(0.0, low - floor_most(near));
+      low = has_heavy_tails ? 0 : std::max(0.0, low - floor_most(near) - kFloorBias * floor);
       if (output.is_largest_difference) {
         const auto [largest, left] = largest_without_noise(figure.metric->region, input, near);
         low = largest > 0 ? std::max(0.0, left / largest) * figure.distance : 0;

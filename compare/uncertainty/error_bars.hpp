@@ -14,6 +14,7 @@
 //               1 - SSIM) are distances, as are the ratios of errors behind decibels. A signed figure, as drift, has no
 //               floor but a bias, the mean of the pairs around e: its interval is the figure less the bias, and 97.5 %
 //               of the larger of both spreads to either side.
+//               The floor is known to kFloorBias.
 // Largest:      the largest of single differences (max_abs, max_rel_peak) is moved by the tail of the noise, which few
 //               replicates do not tell. Its low is the largest of |a - b| - c * error over the values, by the cautious
 //               errors (noise.hpp) and the c that all values together exceed in so many pairs. So a firefly that a
@@ -46,6 +47,8 @@ using ErrorBars = records::Named<ErrorBar>;
 inline constexpr int kFewestBootstraps = 4, kMostBootstraps = 1000;
 /// The chance of a figure beyond one end of its error bar.
 inline constexpr double kBeyondOneEnd = 0.025;
+/// How far a noise floor may be off, as a share: draws around a smoothed picture miss up to 3 % of CIEDE2000 around black.
+inline constexpr double kFloorBias = 0.05;
 
 struct DrawOptions {
   int count = 32;  ///< of pairs of each kind, from kFewestBootstraps to kMostBootstraps

@@ -136,7 +136,9 @@ PictureNoise noise_of(const Image& error, double freedom, bool shared) {
   });
   const bool has_windows = std::min(width, height) >= kLeastSide;
   noise.fireflies = share_of_fireflies(variances, width, height);
-  noise.pooled_freedom = has_windows && !shared ? std::max(freedom, double(kLine)) : freedom;
+  // The variances of a window are no estimate of one variance if a few pixels have nearly all of them.
+  const bool pools = has_windows && !shared && !noise.has_heavy_tails();
+  noise.pooled_freedom = pools ? std::max(freedom, double(kLine)) : freedom;
   return noise;
 }
 
@@ -211,22 +213,18 @@ std::vector<Image*> PictureNoise::images() {
   return all;
 }
 
-double PictureNoise::own_variance(std::size_t pixel) const {
-  double sum = 0;
-  for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
-    if (deviations.empty()) {
-      sum += double(standard_error.values()[i]) * double(standard_error.values()[i]);
-      continue;
-    }
-    double last = 0, squares = 0;
-    for (const Image& deviation : deviations) {
-      const double value = double(deviation.values()[i]);
-      last -= value;
-      squares += value * value;
-    }
-    sum += (squares + last * last) / (freedom * (freedom + 1));
+double PictureNoise::own_variance(std::size_t value) const {
+  if (deviations.empty()) {
+    const double error = double(standard_error.values()[value]);
+    return error * error;
   }
-  return sum;
+  double last = 0, squares = 0;
+  for (const Image& deviation : deviations) {
+    const double apart = double(deviation.values()[value]);
+    last -= apart;
+    squares += apart * apart;
+  }
+  return (squares + last * last) / (freedom * (freedom + 1));
 }
 
 }  // namespace lobelia

@@ -13,7 +13,7 @@
 //                   follow a thin silhouette, and over the four squares of 5 x 5 with the pixel in a corner,
 //                   one of which lies wholly on the noisy side of any straight edge. Channels are not pooled:
 //                   under white light they share their noise. It has 17 degrees of freedom, those of the
-//                   shortest window, or the value's own if it has more.
+//                   shortest window, or the value's own if it has more. With heavy tails it has the value's own.
 // Assumes:      replicates are independent, of equal weight and of one expectation; their means are nearly
 //               normal. Windows are pooled as independent pixels. A picture whose pixels share their sample
 //               points is `shared` and gets no freedom from its windows.
@@ -47,8 +47,8 @@ struct PictureNoise {
   double fireflies = 0;
 
   bool has_heavy_tails() const;
-  /// The squared standard errors of a pixel's three values, by its own replicates alone.
-  double own_variance(std::size_t pixel) const;
+  /// The squared standard error of a value, by its own replicates alone.
+  double own_variance(std::size_t value) const;
   /// All its pictures, each of the size of the picture, 0 where it has no noise.
   std::vector<Image*> images();
 };

@@ -9,7 +9,12 @@
 //               regions, squares of 2, 4, 8, ... pixels up to the whole picture: a drift that no pixel shows
 //               is visible in their sum. The variance of a sum is the sum of variances; if pixels err
 //               together, the square of the sum of errors, which is its upper bound.
-// Level:        Sidak's over all values of all sizes, m of them: about four thirds of the picture's values.
+// Errors:       the cautious ones of small squares. From 8 pixels a side on, a sum of the replicates' own variances is known
+//               well enough: it counts if it has 16 degrees of freedom (Satterthwaite's).
+// Patterns:     sums weighted by what a brighter, moved or wider picture would change (patterns.hpp).
+// Level:        each size has an equal part of it, as has each pattern, and its tests share that part; all by Sidak. So the
+//               few sums over large squares need not be as rare as one of all values. The z of one is that of a
+//               single value as rare among those, and z.critical is theirs.
 // No noise:     equal values have z = 0, others an infinite z.
 // Outliers:     pixels beyond the noise are excluded from regions, if the tolerance allows as many.
 #pragma once
@@ -40,13 +45,15 @@ struct ZTest {
   double critical = 0;        ///< a |z| above it is not chance
   std::int64_t beyond = 0;    ///< pixels with such a value
   std::int64_t off_edge = 0;  ///< of these, off the tolerance's edges
-  std::int64_t regions = 0;   ///< regions with such a value
+  std::int64_t regions = 0;   ///< regions and patterns with such a value
   /// Pixels not certain to lie within the tolerance: |a - b| plus the critical error exceeds it.
   std::int64_t open = 0;
 };
 
-/// The number of values of pixels and regions of a picture of this size.
+/// The number of values of pixels and regions of a picture of this size, and of patterns.
 double count_of_tests(int width, int height);
+/// The level of the test of each pixel's value.
+double level_of_single_values(int width, int height, double significance);
 
 /// Tests an input with noise.
 ZTest z_test(const MetricInput& input);

@@ -47,6 +47,9 @@ TEST(EquivalentZ, IsAsRareAsTheTable) {
   EXPECT_EQ(equivalent_z(7, kInfinity), 7);
   EXPECT_EQ(equivalent_z(kInfinity, 1), kInfinity);
   EXPECT_EQ(equivalent_z(0, 1), 0);
+  // Half of two-sided 10 % is two-sided 5 %.
+  EXPECT_NEAR(equivalent_z(1.64485, kInfinity, 0.5), 1.95996, 1e-4);
+  EXPECT_NEAR(equivalent_z(-6.3138, 1, 0.5), -1.95996, 1e-4);
   EXPECT_GT(equivalent_z(1e6, 1e4), 38) << "rarer than a double holds, and still no less";
 }
 
@@ -225,6 +228,39 @@ TEST(ZTest, FindsADriftOfAPercentThatNoPixelShows) {
   }
 }
 
+TEST(ZTest, FindsADimmerMovedOrWiderHighlightThatNoRegionShows) {
+  // In each value noise of a tenth of the peak, two pictures a side. A score test finds what is 4 to 8 errors of its sum.
+  constexpr int kSide = 48, kTrials = 10;
+  const auto highlight = [](double u, double v, double width) {
+    return std::exp(-20 / (width * width) * (u * u + v * v));
+  };
+  const auto found_of = [&](const auto& changed) {
+    int found_of_all = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::vector<Image> replicates[2];
+      for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t r = 0; r < 2; ++r) {
+          Image image = fixtures::reddish(kSide, kSide, [&](double u, double v) {
+            return side == 0 ? changed(u, v) : highlight(u, v, 1);
+          });
+          const auto values = image.values();
+          for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] += 0.1f * float(gaussian(4 * std::uint64_t(trial) + 2 * side + r, i));
+          replicates[side].push_back(std::move(image));
+        }
+      const NoisyPicture a = mean_of_replicates(replicates[0], false),
+                         b = mean_of_replicates(replicates[1], false);
+      found_of_all += found(test_of(a.image, b.image, {&a.noise, &b.noise}));
+    }
+    return found_of_all;
+  };
+  EXPECT_LE(found_of([&](double u, double v) { return highlight(u, v, 1); }), 1);
+  EXPECT_GE(found_of([&](double u, double v) { return 0.92 * highlight(u, v, 1); }), kTrials - 1);
+  EXPECT_GE(found_of([&](double u, double v) { return highlight(u + 0.02, v, 1); }), kTrials - 1);
+  EXPECT_GE(found_of([&](double u, double v) { return highlight(u, v - 0.02, 1); }), kTrials - 1);
+  EXPECT_GE(found_of([&](double u, double v) { return highlight(u, v, 1.06); }), kTrials - 1);
+}
+
 TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
   const Image b = fixtures::highlight(20, 13, 3, 1);
   const PictureNoise none = fixtures::even_noise(20, 13, 0);
@@ -237,7 +273,7 @@ TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
   EXPECT_EQ(test.beyond, 1);
   EXPECT_EQ(test.x, 7);
   EXPECT_EQ(test.y, 5);
-  EXPECT_EQ(test.regions, 5) << "10 x 7, 5 x 4, 3 x 2, 2 x 1, 1 x 1";
+  EXPECT_EQ(test.regions, 9) << "10 x 7, 5 x 4, 3 x 2, 2 x 1, 1 x 1, and four patterns";
 }
 
 TEST(ZTest, TakesOffWhatATolerancePermitsAndItsOutliers) {
