@@ -7,7 +7,7 @@ target_compile_options(lobelia_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Kernels fuse a*b+c explicitly (Highway's MulAdd). Elsewhere results must not depend on the processor.
   -ffp-contract=off)
-# The kernels need SSE4.2 (docs/decisions/0002), which every x86 processor since 2009 has. Below it Highway would add a
+# The kernels need SSE4.2 (docs/decisions/0001), which every x86 processor since 2009 has. Below it Highway would add a
 # target without vector registers.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   target_compile_options(lobelia_options INTERFACE -march=x86-64-v2)

@@ -1,4 +1,4 @@
-// Reads pictures from untrusted files, in processes that can do no harm (docs/decisions/0017).
+// Reads pictures from untrusted files, in processes that can do no harm (docs/decisions/0008).
 //
 // The program opens the file and recognises its format. A second program, lobelia_picture_reader, forks for each picture.
 // It loads OpenImageIO for the first that is not plain (core/plain_picture.hpp). The child gets the open file, limits, and

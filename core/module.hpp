@@ -1,5 +1,5 @@
 // Parts of the program that are loaded when they are needed, because their libraries would cost every start time
-// (docs/decisions/0039).
+// (docs/decisions/0009).
 //
 // A module with code of ours offers a table. One without code only brings a library of C, whose functions are called
 // through ModuleFunction.

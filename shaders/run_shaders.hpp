@@ -1,4 +1,4 @@
-// Runs shader functions on a real driver, in a process of their own (docs/decisions/0031).
+// Runs shader functions on a real driver, in a process of their own (docs/decisions/0007).
 #pragma once
 
 #include <chrono>
