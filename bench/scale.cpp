@@ -1,5 +1,5 @@
 // The limits of farms of 1e6 cells and 1e8 cells on 1000 nodes: measured as far as this machine allows, simulated beyond.
-// docs/scale.md has the results and conclusions.
+// docs/scale.md has the conclusions.
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
