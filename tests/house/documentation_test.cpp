@@ -14,7 +14,6 @@
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
@@ -166,24 +165,7 @@ TEST(Links, to_files_and_anchors_lead_somewhere) {
   EXPECT_GT(pages, 50);
 }
 
-TEST(Links, that_are_dead_are_found) {
-  Scratch tree;
-  write(tree / "docs/a.md",
-        "# A\n[b](b.md#x-y) [c](../c.md) [d](https://example.org/d.md) [e](b.md#z) [a](#a) "
-        "[f](#f) `[g](g.md)`\n```\n[h](h.md)\n# F\n```\n");
-  write(tree / "docs/b.md", "## `X`, [y](c.md)\n");
-  EXPECT_THAT(dead_links(tree.path(), "docs/a.md"),
-              ElementsAre("docs/a.md: ../c.md", "docs/a.md: b.md#z", "docs/a.md: #f"));
-}
-
 TEST(Index, links_every_page) { EXPECT_THAT(pages_out_of_the_index(kRoot), IsEmpty()); }
-
-TEST(Index, that_lacks_a_page_is_found) {
-  Scratch tree;
-  write(tree / "docs/README.md", "[a](a.md) [b](sub/b.md#x)");
-  for (const char* page : {"docs/a.md", "docs/sub/b.md", "docs/sub/c.md"}) write(tree / page, "");
-  EXPECT_THAT(pages_out_of_the_index(tree.path()), ElementsAre("docs/sub/c.md"));
-}
 
 TEST(Readme, is_short_and_has_a_command_early) {
   const std::string page = read(kRoot / "README.md");
@@ -192,15 +174,6 @@ TEST(Readme, is_short_and_has_a_command_early) {
   std::size_t words = 0;
   for (std::string word; before >> word;) ++words;
   EXPECT_LE(words, 120u) << "before the first command";
-}
-
-TEST(Pages, of_tutorials_and_how_to_say_for_whom_they_are) {
-  for (const char* folder : {"docs/tutorials", "docs/howto"})
-    for (const auto& entry : fs::directory_iterator(kRoot / folder)) {
-      const auto text = lines(read(entry.path()));
-      ASSERT_GT(text.size(), 2u) << entry.path();
-      EXPECT_TRUE(text[2].starts_with("For ")) << entry.path();
-    }
 }
 
 Ran make_site(const fs::path& root, const fs::path& site) {

@@ -13,7 +13,6 @@
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -71,14 +70,6 @@ TEST(Suites, name_tests_that_there_are) {
   const auto entries = long_tests(read(kRoot / "tests/suites.txt"));
   EXPECT_GT(entries.size(), 10u);
   EXPECT_THAT(of_no_test(entries, tests_in(kRoot)), IsEmpty());
-}
-
-TEST(Suites, that_name_other_tests_are_found) {
-  const auto entries = long_tests(
-      "# A comment.\nfarm A.b:A.c* engines Because.\nfarm */P.b/povray:P.gone engines Because.\n"
-      "GalleryWeb cell:gone pages Because.\n");
-  EXPECT_THAT(of_no_test(entries, {"A.b", "A.cd", "P.b", "cell"}),
-              ElementsAre("farm P.gone", "GalleryWeb gone"));
 }
 
 /// The groups of long tests that scripts/change prints for these files.
