@@ -46,17 +46,6 @@ TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
   EXPECT_FALSE(record["accuracy"].contains("reached"));
 }
 
-TEST(RenderAccuracy, ChoosesSamplesWhereTheSceneIsRandom) {
-  const TemporaryDirectory directory;
-  const auto result =
-      render(directory, "effects/area_light.xml", {"--accuracy", "0.05", "--max-samples", "64"});
-  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  const Json record = read_json(directory.path() / "x.json");
-  EXPECT_EQ(record["samples"], record["accuracy"]["chose"]["samples"]);
-  EXPECT_LE(record["samples"], 64);
-  EXPECT_THAT(record["stopped"].get<std::string>(), HasSubstr("what --accuracy chose"));
-}
-
 TEST(RenderAccuracy, ThatNothingReachesIsAnErrorThatNamesTheBestAndLeavesNothing) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "effects/area_light.xml",

@@ -106,22 +106,6 @@ TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheF
       2);
 }
 
-TEST_F(ComparePictures, RefuseALimitBeyondTheRangeOfItsMetric) {
-  flat("grey.exr", 0.25f);
-  for (const char* option : {"--fail", "--warn"})
-    for (const auto& [limit, answer] : {std::pair("share_over.abs=0.004=10", "for 10 % write 0.1"),
-                                        {"ssim=99", "for 99 % write 0.99"},
-                                        {"rmse=-1", "a number of at least 0, so -1"},
-                                        {"rmse=nan", "expected METRIC=LIMIT"},
-                                        {"energy.highlight=-0.1", "on its size"}}) {
-      const auto result = compare({"grey.exr", "grey.exr", option, limit});
-      EXPECT_EQ(result.exit_code, 2) << limit;
-      EXPECT_THAT(result.output_tail, HasSubstr(std::string(option) + " " + limit + ": "));
-      EXPECT_THAT(result.output_tail, HasSubstr(answer));
-    }
-  EXPECT_EQ(compare({"grey.exr", "grey.exr", "--fail", "share_over.abs=0.004=10%"}).exit_code, 0);
-}
-
 TEST_F(ComparePictures, HaveTheBestValueOfEveryMetricWhereBothAreBlack) {
   exr("black.exr", 32, 32, {{"Y", std::vector<float>(32 * 32, 0.0f)}});
   const Record made = record({"black.exr", "black.exr", "--exposures", "auto", "--fail",

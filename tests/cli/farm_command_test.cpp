@@ -53,19 +53,6 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));
 }
 
-TEST(FarmCommand, PublishesTheGalleryThatItIsAskedFor) {
-  const TemporaryDirectory directory;
-  write_small_grid(directory.path());
-  const auto result =
-      run_lobelia({"farm", "grid.xml", "-o", "out", "-q", "--gallery", "site"}, directory.path());
-  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-  EXPECT_THAT(result.output_tail, HasSubstr("gallery: site/index.html"));
-  EXPECT_TRUE(std::filesystem::exists(directory.path() / "site/cells/n16/index.html"));
-  EXPECT_TRUE(
-      std::filesystem::exists(directory.path() / "site/cells/n16/analytic.map.flip.ldr.js"));
-  EXPECT_FALSE(std::filesystem::exists(directory.path() / "out/index.html"));
-}
-
 TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());

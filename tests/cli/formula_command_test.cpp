@@ -28,20 +28,6 @@ TEST_F(TryALobe, ByTheCommandsOfThePage) {
   EXPECT_THAT(text("idea.glsl"), HasSubstr("--formula"));
 }
 
-TEST_F(TryALobe, HasThePictureOfTheCatalogues) {
-  for (const char* way : {"--lobe cs16", "--formula 'max(0, 1 - n*s/16)^16'"}) {
-    const std::string name = way[2] == 'l' ? "a" : "b";
-    const auto result =
-        run("render \"$SCENES\"oblique_45.xml --width 64 --height 64 -o " + name + ".exr " + way);
-    ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  }
-  EXPECT_EQ(run("compare a.exr b.exr --fail max_abs=1e-5 > /dev/null").exit_code, 0);
-  const auto record = nlohmann::json::parse(text("b.json"));
-  EXPECT_EQ(record["highlights"][0]["lobe"], "expression");
-  EXPECT_EQ(record["highlights"][0]["formula"], "max(0, 1 - n * s / 16)^16");
-  EXPECT_FALSE(nlohmann::json::parse(text("a.json"))["highlights"][0].contains("formula"));
-}
-
 TEST_F(TryALobe, IsPlannedAndListedAsSlowAndDouble) {
   const auto plan = run("plan \"$SCENES\"oblique_45.xml --formula '1/(1 + n*s)^2'");
   EXPECT_EQ(plan.exit_code, 0);

@@ -306,15 +306,6 @@ TEST_F(OutsideEngines, APictureOutsideOfTheGridsFolderIsReadOnlyWithLeave) {
   EXPECT_THAT(images("n16"), ElementsAre("lobelia", "studio"));
 }
 
-TEST_F(OutsideEngines, AHugePictureFileFailsItsCellAtOnce) {
-  write_file(path("huge.exr"), "");
-  fs::resize_file(path("huge.exr"), std::uintmax_t{1} << 40);
-  grid("<pictures name=\"studio\" files=\"huge.exr\"/>");
-  EXPECT_EQ(farm({}).exit_code, 4);
-  EXPECT_THAT(cell()["problems"][0]["message"].get<std::string>(),
-              HasSubstr("the file has 1099511627776 bytes; at most 8589934592 are read"));
-}
-
 TEST_F(OutsideEngines, MayBeTheReferenceWithoutOurPicture) {
   script("one.sh", "");
   script("two.sh", "");

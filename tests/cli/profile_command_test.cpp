@@ -37,15 +37,6 @@ class ProfileCommand : public ::testing::Test {
   const TemporaryDirectory directory_;
 };
 
-TEST_F(ProfileCommand, SaysWhichCosineLobeTheHighlightIs) {
-  const auto result = run({"profile", "two_lights.exr", "--scene", two_lights_});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.output_tail, HasSubstr("sphere 0, light 1"));
-  EXPECT_THAT(
-      result.output_tail,
-      HasSubstr("two_lights: this highlight is a cosine lobe of n = 64.00000 +- 0.00006 (but for"));
-}
-
 TEST_F(ProfileCommand, SaysFirstWhatExplainsTheHighlight) {
   const auto result = run({"profile", "oblique_45.exr", "--scene", oblique_});
   EXPECT_THAT(result.output_tail,

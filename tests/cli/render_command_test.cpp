@@ -31,14 +31,6 @@ TEST(RenderCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndGoesOn) 
     EXPECT_THAT(render(exponent, "paper").output_tail, testing::Not(HasSubstr("warning")));
 }
 
-TEST(RenderCommand, GivesTheSameFileByteForByteWhateverThreadsAndPlace) {
-  const TemporaryDirectory a, b;
-  const std::string scene = kScenes + "two_spheres.xml";
-  ASSERT_EQ(run_lobelia({"render", scene, "-o", "x.exr", "--threads", "1"}, a.path()).exit_code, 0);
-  ASSERT_EQ(run_lobelia({"render", scene, "-o", "y.exr", "--threads", "4"}, b.path()).exit_code, 0);
-  EXPECT_EQ(bytes(a.path() / "x.exr"), bytes(b.path() / "y.exr"));
-}
-
 TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
   const TemporaryDirectory directory;
   ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "-o", "x.exr", "--model",

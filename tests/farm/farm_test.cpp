@@ -156,16 +156,6 @@ TEST_F(FarmTest, TwoCellsOfOneSceneHaveOneResult) {
   EXPECT_EQ(summary.unchecked, 2u);
 }
 
-TEST_F(FarmTest, AChangedSceneIsAnotherResult) {
-  run_farm(grid("16, 32"), out(), {});
-  Grid other = grid("16, 32");
-  other.scene.film.width = 50;
-  EXPECT_EQ(run_farm(other, out(), {}).rendered, 2u);
-  EXPECT_EQ(read_image(in_cell("n16", "lobelia.exr")).width(), 50);
-  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 0u) << "and the first one is still there";
-  EXPECT_EQ(read_image(in_cell("n16", "lobelia.exr")).width(), 48);
-}
-
 TEST_F(FarmTest, FilesThatNobodyMadeForACellAreTakenOutOfIt) {
   run_farm(grid("16", "<engine name=\"analytic\"/>"), out(), {});
   ASSERT_TRUE(fs::exists(in_cell("n16", "analytic.exr")));

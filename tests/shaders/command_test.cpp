@@ -39,18 +39,6 @@ TEST_F(ExportCommand, PrintsTheTextOrWritesItToAFile) {
   EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command)) << "how to get it again";
 }
 
-TEST_F(ExportCommand, SaysInTheTextWithWhichOptionsToGetItAgain) {
-  const std::string options =
-      "phong_rdf --lobe cs8 --normalisation exact --coefficient argument --fresnel schlick";
-  for (const std::string language : {"glsl", "hlsl", "wgsl", "msl", "osl"}) {
-    const std::string command = "export --language " + language + " " + options;
-    ASSERT_EQ(run_shell("\"$LOBELIA\" " + command + " > printed", scratch_.path()).exit_code, 0);
-    EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command + "\n"));
-    EXPECT_THAT(file("printed"), HasSubstr("lobelia_phong_rdf_cs8_fresnel("));
-    EXPECT_THAT(file("printed"), HasSubstr("lobelia_phong_rdf_cs8_coefficient("));
-  }
-}
-
 TEST_F(ExportCommand, WritesHalfFloatsForGlslAndHlsl) {
   const std::string command =
       "export --language glsl modified_phong --lobe cs16 --normalisation exact "

@@ -164,13 +164,6 @@ TEST(HalfFloatExports, OfGlslAndHlslAreTheSameButForTheTypes) {
                    {"(?:_MEDIUMP|_MIN16FLOAT)\\b", ""}});
 }
 
-TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
-  std::string text = shader_text(every_export("glsl").front());
-  text.replace(text.find("n_dot_l > 0.0"), 1, "m");
-  write("mistake.frag", "#version 460\n" + text + "void main() {}\n");
-  EXPECT_THAT(complaints({}), HasSubstr("undeclared identifier"));
-}
-
 TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
   // No compiler of MSL is in Debian. What the text computes, run_test shows of HLSL.
   const std::vector<ShaderExport> msl = every_export("msl");

@@ -273,13 +273,6 @@ TEST(CircuitErrors, OfSomeOfTheStepsAreThoseOfAllWithinTheirStandardErrorsAndBou
   }
 }
 
-TEST(CircuitErrors, OfCs16EndAtItsShape) {
-  const CircuitErrors e = circuit_errors(cs_circuit({32, FixedRounding::kNearest}, 1024, 16), 1024);
-  EXPECT_THAT(e.max, DoubleNear(1.70e-2, 5e-5));  // the claim cs16-largest-error
-  EXPECT_THAT(e.energy, DoubleNear(1 - 16.0 / 1024 / 17 * 1025, 1e-4));
-  EXPECT_LT(e.rounding, 1e-6);
-}
-
 TEST(CircuitErrors, OfOneBitAreSeenAtTheEndsOfSteps) {
   // n = 1, k = 2, one bit: s is 0, 1/2 or 1. For s just below 1/4 the value is 1 and cos is 3/4.
   const CircuitErrors e = circuit_errors(power_circuit({1, FixedRounding::kNearest}, 1), 1);

@@ -56,29 +56,5 @@ TEST(EverySampler, DrawsABlackSurfaceEvenlyAndSaysSo) {
   }
 }
 
-/// Of the draws of one material against the pdf of another.
-double p_value(const Material& sampled, const Material& claimed, double degrees) {
-  return ChiSquare(Reflector(sampled), Reflector(claimed), info(sampled.highlight.model).angle,
-                   radians(degrees), 1)
-      .p_value();
-}
-
-TEST(TheTestOfSamplers, RejectsAnExponentTwiceAsLarge) {
-  for (const Highlight& h : some_of(highlights(every_model(), kSampledExponents))) {
-    Material claimed = material(h, false);
-    claimed.highlight.exponent *= 2;
-    EXPECT_LT(p_value(material(h, false), claimed, 30), significance(10000)) << text(h);
-  }
-}
-
-TEST(TheTestOfSamplers, RejectsADiffuseBaseThatIsDrawnTooSeldom) {
-  // Where a lobe is as broad as the base, the two are drawn alike.
-  for (const Highlight& h : highlights(every_model(), std::vector{16.0, 1024.0, 1e5})) {
-    Material claimed = material(h, true);
-    claimed.diffuse_reflectance = 1.5 * claimed.diffuse_reflectance;
-    EXPECT_LT(p_value(material(h, true), claimed, 60), significance(10000)) << text(h);
-  }
-}
-
 }  // namespace
 }  // namespace lobelia
