@@ -190,7 +190,7 @@ TEST(Accuracy, WithoutABoundIsTheScenesOwnLobeInFloat64) {
   EXPECT_TRUE(measure_reached(s, choice, picture(choice)).held(choice));
 }
 
-TEST(Accuracy, OfABlackPictureIsHeldAndSaysThatThereWasNothingToMeasure) {
+TEST(Accuracy, HoldsForABlackPictureAndSaysThatNothingWasMeasured) {
   Scene dark = scene("head_on");
   std::get<DirectionalLight>(dark.lights[0]).irradiance = {};
   Scene dark_noise = dark;
@@ -210,7 +210,7 @@ TEST(Accuracy, OfABlackPictureIsHeldAndSaysThatThereWasNothingToMeasure) {
     }
 }
 
-TEST(Accuracy, OfAHighlightThatTheLookMissedIsMeasuredAllTheSame) {
+TEST(Accuracy, IsMeasuredForAHighlightThatTheLookMissed) {
   // A highlight a few pixels wide between the pixels that are looked at.
   Scene s = with_highlight(scene("oblique_45", 2048), 1e8, "cosine");
   const Choice choice = choose(s, parse_accuracy("1e-3"));

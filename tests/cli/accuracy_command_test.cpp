@@ -46,7 +46,7 @@ TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
   EXPECT_FALSE(record["accuracy"].contains("reached"));
 }
 
-TEST(RenderAccuracy, ThatNothingReachesIsAnErrorThatNamesTheBestAndLeavesNothing) {
+TEST(RenderAccuracy, FailsOutOfReachNamesTheBestAndLeavesNothing) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "effects/area_light.xml",
                              {"--accuracy", "1e-6", "--max-samples", "4", "-q"});

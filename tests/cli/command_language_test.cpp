@@ -90,7 +90,7 @@ TEST(Help, IsThereForEveryCommandAndNamesThoseBelowIt) {
   }
 }
 
-TEST(Help, AndVersionAreWordsToo) {
+TEST(Help, IsAWordTooAsIsVersion) {
   const TemporaryDirectory directory;
   const auto printed = [&](std::vector<std::string> arguments) {
     const auto result = run_lobelia(std::move(arguments), directory.path());
@@ -147,7 +147,7 @@ TEST(Colours, AreForTerminalsWithoutNoColor) {
 }
 
 /// What users take for a scene.
-TEST(Scene, OfAnotherProgramIsNamed) {
+TEST(Scene, IsNamedIfItIsOfAnotherProgram) {
   const TemporaryDirectory directory;
   for (const auto& [text, named] : {
            std::pair<std::string, std::string>{"LookAt 0 0 0\nWorldBegin\n", "is a pbrt scene"},

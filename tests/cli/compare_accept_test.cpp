@@ -275,7 +275,7 @@ TEST_F(CompareAccept, APartOfAPictureDoesNotReplaceTheWhole) {
   EXPECT_EQ(text("truth.exr"), text("mine.exr"));
 }
 
-TEST_F(CompareAccept, WhatChangesWhileTheQuestionIsOpenIsNotAccepted) {
+TEST_F(CompareAccept, RefusesFilesThatChangeWhileTheQuestionIsOpen) {
   differing_pair("x.exr"), differing_pair("y.exr"), flat("theirs.exr", 0.9f);
   const std::string x = text("truth/x.exr"), y = text("truth/y.exr");
   std::string said = accept("mine truth", "yes", "printf garbage > mine/y.exr");

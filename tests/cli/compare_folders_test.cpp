@@ -84,7 +84,7 @@ TEST_F(CompareFolders, WritesTheSameReportWithAnyNumberOfThreads) {
   EXPECT_EQ(text("one.json"), text("five.json"));
 }
 
-TEST_F(CompareFolders, WithNoPairAtAllIsNoSuccess) {
+TEST_F(CompareFolders, FailWithoutAnyPair) {
   EXPECT_EQ(compare({"a", "b"}).exit_code, 3);
   put("a/x.exr", 0.1f), put("b/y.exr", 0.1f);
   for (const char* option : {"--quiet", "--verbose"}) {
@@ -105,7 +105,7 @@ TEST_F(CompareFolders, WriteNoReportOverAnotherSite) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(compare({"a", "b", "--html", "report"}).exit_code, 0);
 }
 
-TEST_F(CompareFolders, OrOnePairThatIsUnreadableIsToldToContinuousIntegration) {
+TEST_F(CompareFolders, ReportAnUnreadablePairToCi) {
   put("b/x.exr", 0.1f);
   const auto result = compare(
       {"a/gone.exr", "b/x.exr", "--junit", "j.xml", "--json", "r.json", "--format", "github"});

@@ -48,7 +48,7 @@ TEST_F(ComparePictures, OneLayerMayHaveTwoNames) {
   EXPECT_EQ(compare({"a.exr", "b.exr", "--layer", "=diffuse"}).exit_code, 2);
 }
 
-TEST_F(ComparePictures, WithAllLayersTheWorstIsTheVerdictAndEachHasItsFigures) {
+TEST_F(ComparePictures, AllLayersHaveFiguresAndTheWorstIsTheVerdict) {
   flat("a.exr", 1, {channel("A", 0.5f), channel("Z", 70), channel("same.Y", 1)});
   flat("b.exr", 1, {channel("A", 0.75f), channel("same.Y", 1), channel("id", 3)});
   const Record made = record({"a.exr", "b.exr", "--all-layers"}, 1);

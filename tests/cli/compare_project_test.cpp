@@ -31,7 +31,7 @@ class CompareProject : public ComparePictures {
 
 constexpr char kTwoFolders[] = "judged = [\"mine\"]\nreferences = [\"truth\"]\n";
 
-TEST_F(CompareProject, InThisDirectoryNeedsNoOption) {
+TEST_F(CompareProject, NeedsNoOptionInItsDirectory) {
   flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
   EXPECT_EQ(compare({}).exit_code, 2);
   project(kTwoFolders);
@@ -134,7 +134,7 @@ TEST_F(CompareProject, ExcusesAKnownDifferenceUntilItExpires) {
   EXPECT_THAT(result.output_tail, HasSubstr("no longer   x.exr: it passes"));
 }
 
-TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
+TEST_F(CompareProject, IsRefusedWithThePlaceOfItsMistake) {
   flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
   const std::string two = kTwoFolders;
   expect_refused("judged = [", "line 1, column ");
@@ -166,7 +166,7 @@ TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
   EXPECT_EQ(compare({"--project", "gone.toml"}).exit_code, 3);
 }
 
-TEST_F(CompareProject, OfJsonIsRefusedIfItSaysAThingTwiceOrIsTooDeep) {
+TEST_F(CompareProject, IsRefusedAsJsonWithAKeyTwiceOrTooDeep) {
   for (const auto& [text, why] :
        {std::pair(std::string(R"({"judged": ["a"], "references": ["b"], "judged": ["c"]})"),
                   "the key judged stands twice"),
@@ -245,7 +245,7 @@ TEST_F(CompareProject, IsQuietVerboseAndColouredOnRequest) {
   EXPECT_THAT(told({"--color", "always"}), HasSubstr("\x1b[31mdiffers"));
 }
 
-TEST_F(CompareProject, OfTheDocumentationIsOne) {
+TEST_F(CompareProject, RunsAsTheDocumentationShowsIt) {
   const std::string page =
       read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/comparing.md", 1 << 20);
   const std::size_t start = page.find("```toml\n") + 8;

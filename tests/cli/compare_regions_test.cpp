@@ -56,7 +56,7 @@ TEST_F(CompareRegions, AMaskBesideASceneHasOnlyThePixelsThatShowASurface) {
   EXPECT_EQ(2 * pixels({"--mask", "rect:0,0,256,128"}), ball);
 }
 
-TEST_F(CompareRegions, OfAnotherSizeThanThePicturesAreAnErrorOfThePair) {
+TEST_F(CompareRegions, FailThePairIfTheirSizeIsNotThePictures) {
   const auto mask = compare({"a.exr", "b.exr", "--mask", "small.exr"});
   EXPECT_EQ(mask.exit_code, 3);
   EXPECT_THAT(mask.output_tail,

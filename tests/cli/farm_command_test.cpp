@@ -86,7 +86,7 @@ TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   expect_found("changed", "cell.json is not the record that the farm wrote");
 }
 
-TEST(FarmCommand, WithNoiseHasVerdictsThatItsGalleryFindsAgain) {
+TEST(FarmCommand, GivesNoisyCellsTheVerdictsThatItsGalleryFindsAgain) {
   const TemporaryDirectory directory;
   std::filesystem::create_symlink(kScenes + "effects", directory.path() / "effects");
   write_file(directory.path() / "grid.xml",

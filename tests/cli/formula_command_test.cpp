@@ -20,7 +20,7 @@ class TryALobe : public testing::Test {
   const TemporaryDirectory directory_;
 };
 
-TEST_F(TryALobe, ByTheCommandsOfThePage) {
+TEST_F(TryALobe, RunsByTheCommandsOfThePage) {
   const std::string commands = page_commands("docs/scene_format.md", "## Try a lobe");
   ASSERT_THAT(commands, HasSubstr("lobelia render"));
   const auto result = run_commands(commands, directory_.path());

@@ -172,7 +172,7 @@ TEST_F(OutsideEngines, NoProgramIsGivenAValueThatItCouldTakeForAnOption) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(OutsideEngines, ThatMisbehavesLosesItsOwnCellsAlone) {
+TEST_F(OutsideEngines, LosesOnlyItsOwnCellsWhenItMisbehaves) {
   script("good.sh", "");
   struct Case {
     const char* name;
@@ -266,7 +266,7 @@ TEST_F(OutsideEngines, SaysWhichScenesItCannotShow) {
               HasSubstr("calls for"));
 }
 
-TEST_F(OutsideEngines, OfPicturesShowsThoseThatAreThereAndMissesTheOthers) {
+TEST_F(OutsideEngines, ShowsPicturesThatAreThereAndMissesTheOthers) {
   fs::create_directory(path("renders"));
   ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "--width", "32", "--height", "32",
                          "--exponent", "16", "-o", "renders/studio_16.exr"},
@@ -341,7 +341,7 @@ TEST_F(OutsideEngines, IsListedWithItsVersionAndState) {
                                         HasSubstr("no program 'no_such_program'")));
 }
 
-TEST_F(OutsideEngines, OfAnEngineFileIsSharedByGrids) {
+TEST_F(OutsideEngines, IsSharedByGridsThroughAnEngineFile) {
   script("mine.sh", "");
   fs::create_directory(path("engines"));
   fs::rename(path("mine.sh"), path("engines/mine.sh"));
@@ -351,7 +351,7 @@ TEST_F(OutsideEngines, OfAnEngineFileIsSharedByGrids) {
   EXPECT_THAT(images(), ElementsAre("lobelia", "mine"));
 }
 
-TEST_F(OutsideEngines, ThatIsDescribedWronglyIsAnErrorWithItsLine) {
+TEST_F(OutsideEngines, IsRefusedWithTheLineOfAWrongDescription) {
   const std::pair<const char*, const char*> cases[] = {
       {"<engine name=\"povray\" command=\"x {out}\"/>", "the name 'povray' is taken"},
       {"<engine name=\"profile\" command=\"x {out}\"/>", "the name 'profile' is taken"},
@@ -386,7 +386,7 @@ TEST_F(OutsideEngines, ThatIsDescribedWronglyIsAnErrorWithItsLine) {
   EXPECT_THAT(farm().output_tail, HasSubstr("allowed: an engine of this grid"));
 }
 
-TEST_F(OutsideEngines, OfTheTutorialBecomesAColumnByTheCommandsOfItsPage) {
+TEST_F(OutsideEngines, BecomesAColumnByTheCommandsOfTheTutorial) {
   if (find_program("python3").empty()) {
     ASSERT_FALSE(std::getenv("LOBELIA_REQUIRE_ENGINES")) << "no python3";
     GTEST_SKIP() << "no python3";

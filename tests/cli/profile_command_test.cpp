@@ -79,7 +79,7 @@ TEST_F(ProfileCommand, FitsTheMeansOfAPictureOfManySamples) {
   EXPECT_LT(n, 63.95);
 }
 
-TEST_F(ProfileCommand, OfASceneMeasuresEveryHighlightUnlessOneIsChosen) {
+TEST_F(ProfileCommand, MeasuresEveryHighlightOfASceneUnlessOneIsChosen) {
   const Json all = record_of({"profile", "two_lights.exr", "--scene", two_lights_});
   EXPECT_EQ(all["kind"], "profiles");
   ASSERT_EQ(all["profiles"].size(), 2u);
@@ -207,7 +207,7 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
   }
 }
 
-TEST_F(ProfileCommand, OfBlackAndOfOnePixelGivesAnAnswer) {
+TEST_F(ProfileCommand, AnswersForBlackAndForOnePixel) {
   for (const char* size : {"1", "2", "5"}) {
     ASSERT_EQ(
         run({"render", oblique_, "--width", size, "--height", size, "-o", "small.exr"}).exit_code,

@@ -47,7 +47,7 @@ TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
   EXPECT_EQ(files_in(directory.path()), 2u);
 }
 
-TEST(RenderCommand, OnAFullDiskKeepsTheOldPictureAndLeavesNothingElse) {
+TEST(RenderCommand, KeepsTheOldPictureAndNothingElseOnAFullDisk) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "x.exr", "old");
   // A limit of 8 blocks of 512 bytes stands in for the disk.

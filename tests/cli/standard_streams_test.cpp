@@ -128,7 +128,7 @@ TEST_F(StandardStreams, StdoutThatCannotBeWrittenIsExitCode4AndOneLineOr141Witho
   }
 }
 
-TEST_F(StandardStreams, ThatAreClosedGetNoPictureIntoThem) {
+TEST_F(StandardStreams, ReceiveNoPictureWhenTheyAreClosed) {
   const std::string render =
       "\"$LOBELIA\" render \"$SCENES\"two_lights.xml --png out.png -o out.exr --samples 2";
   ASSERT_EQ(run_shell(render + " -q && mkdir whole && mv out.* whole", directory_.path()).exit_code,

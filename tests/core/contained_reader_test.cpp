@@ -240,7 +240,7 @@ TEST_F(ContainedReader, HoldsAPictureToTheLimitOfWhoeverAsksBeforeItIsUnpacked) 
     EXPECT_THAT(why(limit), AllOf(HasSubstr("a.png"), ::testing::Not(HasSubstr("claims"))));
 }
 
-TEST(Claims, OfAFileGrowWithItsSizeAndNeverReachAGigabyteForASmallOne) {
+TEST(Claims, GrowWithTheFileAndStayBelowAGigabyteForASmallOne) {
   const PictureLimit limit;
   const std::uint64_t of_any = limit.pixels_of_any_file;
   EXPECT_EQ(claim_problem({2 * of_any, 8 * of_any}, 1, limit), "");
@@ -403,7 +403,7 @@ TEST_F(ContainedReader, CanDoNothingButDecode) {
   EXPECT_FALSE(fs::exists(victim.string() + ".new"));
 }
 
-TEST(Answers, OfAReaderThatAHostileFileTookOverAreRefusedOrHarmless) {
+TEST(Answers, AreRefusedOrHarmlessFromAReaderThatWasTakenOver) {
   ReadingAnswer answer;
   answer.kind = ReadingAnswer::Kind::kPicture;
   answer.source.format = "openexr";

@@ -187,7 +187,7 @@ TEST(PartFile, TakesTheContentOfAnotherFile) {
   EXPECT_EQ(read_file(directory.path() / "to", 1'000'000), "before " + text + " after");
 }
 
-TEST(WriteFile, ThatDoesNotFitLeavesTheOldFileAndNoPart) {
+TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";
   write_file(path, "old");

@@ -78,7 +78,7 @@ class GainMaps : public PictureFiles {
                                              255, 255, 255, 0, 0, 0});
 };
 
-TEST_F(GainMaps, OfOneChannelBrightenByAdobesFormula) {
+TEST_F(GainMaps, BrightenAllChannelsByAdobesFormula) {
   Numbers numbers;
   numbers.min = {-0.5};
   numbers.max = {3};
@@ -94,7 +94,7 @@ TEST_F(GainMaps, OfOneChannelBrightenByAdobesFormula) {
   }
 }
 
-TEST_F(GainMaps, OfThreeChannelsAreInterpolatedBetweenTheirPixels) {
+TEST_F(GainMaps, AreInterpolatedInThreeChannelsBetweenTheirPixels) {
   Numbers numbers;
   numbers.min = {-1, 0, 0.25};
   numbers.max = {1, 2, 3};
@@ -118,7 +118,7 @@ TEST_F(GainMaps, OfThreeChannelsAreInterpolatedBetweenTheirPixels) {
   }
 }
 
-TEST_F(GainMaps, InTheFormOfIso21496AreTheSame) {
+TEST_F(GainMaps, AreTheSameInTheFormOfIso21496) {
   Numbers numbers;
   numbers.min = {-1, 0, 0.25};
   numbers.max = {1, 2, 3};
@@ -160,7 +160,7 @@ TEST_F(GainMaps, AreLeftOutIfAskedOrIfTheBaseIsTheHdrPicture) {
   EXPECT_EQ(values(left_out.image), values(plain.image));
 }
 
-TEST_F(GainMaps, ThatAreMissingOrImpossibleAreAnErrorOfThePicture) {
+TEST_F(GainMaps, AreAnErrorOfThePictureIfMissingOrImpossible) {
   const std::string map = with_segments(block_jpeg(1, 1, 1, {180}), xmp_of({}));
   const auto bad = [&](const std::string& bytes) { return refusal(file("b.jpg", bytes)); };
   EXPECT_THAT(bad(ultra_hdr(base_, map, xmp_segment(">"), 1 << 30)),
@@ -201,7 +201,7 @@ class HdrCurves : public PictureFiles {
   }
 };
 
-TEST_F(HdrCurves, OfPqIsLightWith1For203CandelaPerSquareMetre) {
+TEST_F(HdrCurves, DecodePqToLightWith1For203CandelaPerSquareMetre) {
   // Codes of ITU-R BT.2100's inverse EOTF, published with ITU-R BT.2408 in per cent.
   for (const auto& [code, nits] : {std::pair{0.0, 0.0},
                                    {0.149945, 1.0},
@@ -214,7 +214,7 @@ TEST_F(HdrCurves, OfPqIsLightWith1For203CandelaPerSquareMetre) {
   }
 }
 
-TEST_F(HdrCurves, OfHlgIsTheLightOfItsNominalDisplay) {
+TEST_F(HdrCurves, DecodeHlgToTheLightOfItsNominalDisplay) {
   // ITU-R BT.2408, table 1: 75 % is the white of 203 cd/m^2, 100 % the peak of 1000, 38 % the grey card of 26.
   for (const auto& [code, nits, by] :
        {std::tuple{0.75, 203.0, 0.3}, {1.0, 1000.0, 0.01}, {0.38, 26.0, 0.6}, {0.0, 0.0, 1e-9}})

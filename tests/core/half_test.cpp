@@ -70,7 +70,7 @@ TEST(Half, IsTheNearestToEveryFloatAsOpenExrAndTheProcessorRound) {
   }
 }
 
-TEST(Half, OfADoubleIsRoundedOnce) {
+TEST(Half, RoundsADoubleOnce) {
   // By way of float, each would be rounded to the middle first, and then to even.
   EXPECT_EQ(double(Half(1 + 0x1p-11)), 1);
   EXPECT_EQ(double(Half(1 + 0x1p-11 + 0x1p-40)), 1 + 0x1p-10);

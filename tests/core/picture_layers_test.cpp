@@ -68,7 +68,7 @@ TEST(PictureLayers, YBesideXIsPartOfAVectorAndNoLuminance) {
               ElementsAre("", "motion.u", "motion.v"));
 }
 
-TEST(PictureLayers, OfColoursKnowTheirAlpha) {
+TEST(PictureLayers, KnowTheAlphaOfColours) {
   const std::vector<PicturePart> file = {
       {"first",
        {"R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B", "diffuse.alpha", "N.Y"}},
@@ -144,7 +144,7 @@ TEST(PictureLayers, LuminanceAndChromaAreOneLayerOfColours) {
   EXPECT_THAT(names(parts), ElementsAre("", "A", "Z"));
 }
 
-TEST(PictureLayers, WhatMayMeanMoreThanOneThingIsRefusedWithTheNamesThatThereAre) {
+TEST(PictureLayers, AreNamedWhereANameCouldMeanSeveral) {
   EXPECT_THAT(message({{{"", {"u", "v"}}}}, ""), HasSubstr("its channels are 'u', 'v'"));
   // Half of a picture whose colours are in RY and BY, one of which is missing.
   EXPECT_THAT(message({{{"", {"RY", "Y"}}}}, ""), HasSubstr("'RY', 'Y'"));
@@ -165,7 +165,7 @@ TEST(PictureLayers, AnUnknownNameIsToldTheNearest) {
   EXPECT_EQ(message({{{"", many}}}, "R").find('\n'), std::string::npos);
 }
 
-TEST(PictureLayers, OfAFileOfPartsHaveTheNameOfTheirPart) {
+TEST(PictureLayers, HaveTheNameOfTheirPart) {
   const std::vector<PicturePart> file = {{"beauty", {"R", "G", "B", "A"}},
                                          {"diffuse", {"R", "G", "B", "A"}},
                                          {"depth", {"depth.Z"}},
@@ -178,7 +178,7 @@ TEST(PictureLayers, OfAFileOfPartsHaveTheNameOfTheirPart) {
   EXPECT_EQ(find_layer("", file, "part4").part, 3u);
 }
 
-TEST(PictureLayers, ThatHaveOneNameAreToldApart) {
+TEST(PictureLayers, AreToldApartIfTheyShareAName) {
   const std::vector<PicturePart> file = {
       {"", {"R", "G", "B"}}, {"eye", {"R", "G", "B"}}, {"eye", {"R", "G", "B"}}};
   EXPECT_THAT(names(file), ElementsAre("", "eye", "eye#2"));
@@ -212,7 +212,7 @@ TEST(PictureLayers, AreFoundByTheNamesOfOtherRenderers) {
   EXPECT_THAT(find_layer("", {{{"", {"R", "G", "B"}}}}, "combined").where, ElementsAre(0, 1, 2));
 }
 
-TEST(PictureLayers, WhatARendererCallsItsPictureIsThePicture) {
+TEST(PictureLayers, TakeForThePictureWhatARendererCallsSo) {
   EXPECT_THAT(find_layer("", kCycles, "").where, ElementsAre(0, 1, 2));
   auto two = kCycles;
   for (const char* channel : {"Other.Combined.R", "Other.Combined.G", "Other.Combined.B"})
@@ -223,7 +223,7 @@ TEST(PictureLayers, WhatARendererCallsItsPictureIsThePicture) {
   EXPECT_THAT(find_layer("", two, "other.combined").where, ElementsAre(17, 18, 19));
 }
 
-TEST(PictureLayers, OfAStereoFileAreFoundByTheirView) {
+TEST(PictureLayers, AreFoundByTheirViewInAStereoFile) {
   // OpenEXR's rule: the default view is not in the names of channels without a layer.
   PicturePart plain{"", {"R", "G", "B", "right.R", "right.G", "right.B"}};
   plain.views = {"left", "right"};

@@ -55,7 +55,7 @@ TEST(Process, WithoutAnySignOfProgressIsKilledLongBeforeItsTime) {
   EXPECT_EQ(silent.output_tail, "begun\n");
 }
 
-TEST(Process, ThatTalksOrWritesIsNotTakenForOneThatHangs) {
+TEST(Process, IsNotTakenForHangingWhileItTalksOrWrites) {
   // For longer than the limit in all; those that it must stop go on for ever.
   const std::string for_a_while = "for i in $(seq 12)", for_ever = "while :";
   const auto hangs = [](bool watched, const std::string& loop, const std::string& action) {
@@ -124,7 +124,7 @@ TEST(Process, IsKilledWhenItsCallerWantsItStopped) {
   EXPECT_EQ(result.exit_code, 128 + 9);
 }
 
-TEST(Process, ThatCannotBeStartedIsAnEngineErrorThatSaysWhy) {
+TEST(Process, SaysInAnEngineErrorWhyItCannotBeStarted) {
   const auto why = [](const std::string& program, const ProcessOptions& options) -> std::string {
     try {
       run_process({program}, options);

@@ -90,7 +90,7 @@ TEST_F(RemovalTest, GoesThroughNoLinkOnTheWayOrAtTheEnd) {
   EXPECT_EQ(removing.kept()[0].why, "a symbolic link, which is not followed");
 }
 
-TEST_F(RemovalTest, OfARootWithoutItsMarkerTakesNothing) {
+TEST_F(RemovalTest, TakesNothingFromARootWithoutItsMarker) {
   write_file(root() / "file", "x");
   for (const char* marker : {"theirs", ""}) {
     write_file(root() / "marker", marker);
@@ -210,7 +210,7 @@ TEST_F(RemovalTest, ADryRunTellsExactlyWhatGoesAndTakesNothing) {
   EXPECT_GT(told, 400u);
 }
 
-TEST_F(RemovalTest, OfAResultAtOnceTellsWhereItWas) {
+TEST_F(RemovalTest, TellsWhereAResultWasThatItTookAtOnce) {
   fs::create_directories(root() / "tree" / "a");
   fs::create_directory(root() / "directory");
   std::vector<std::string> told;
@@ -261,7 +261,7 @@ TEST_F(RemovalTest, TakesNothingForMissingOrEmptyThatTooManyOpenFilesHide) {
   EXPECT_TRUE(fs::exists(root() / "tree" / "inner"));
 }
 
-TEST_F(RemovalTest, OfWhatATaskLeavesBehindWaitsForTheNextFarmWhereTooManyFilesAreOpen) {
+TEST_F(RemovalTest, LeavesPartsToTheNextFarmWhereTooManyFilesAreOpen) {
   const std::string part = fmt::format(".a.exr.{}-1.part", ::getpid());
   write_file(root() / part, "x");
   {

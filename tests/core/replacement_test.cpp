@@ -138,7 +138,7 @@ TEST_F(ReplacementTest, NothingIsReplacedIfAFileIsNotWhatWasCompared) {
   expect_refused("refs/made/here/c.exr: was made meanwhile");
 }
 
-TEST_F(ReplacementTest, WhatSomebodyElseWritesMeanwhileStays) {
+TEST_F(ReplacementTest, AFileThatSomebodyElseWritesMeanwhileStays) {
   int call = 1;
   for (bool reached = true; reached && call < kMostCalls && !HasFailure(); ++call) {
     SCOPED_TRACE(fmt::format("before call {}", call));

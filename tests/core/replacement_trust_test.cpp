@@ -114,7 +114,7 @@ TEST_F(ReplacementTrust, ALockThatCannotBeOpenedStopsIt) {
   EXPECT_EQ(texts(), (Texts{{"a.exr", "new a"}, {"sub/b.exr", "old b"}}));
 }
 
-TEST_F(ReplacementTrust, WhoMayChangeTheFolderMayTakeItsLock) {
+TEST_F(ReplacementTrust, AnyoneWhoMayChangeTheFolderMayTakeItsLock) {
   fs::permissions(refs(), fs::perms(02775));
   replace(three());
   EXPECT_EQ(mode(std::string(kReplacedName) + "/lock"), 0664u);
@@ -189,7 +189,7 @@ TEST_F(ReplacementTrust, ACopyOfAJournalIsNotActedUpon) {
   EXPECT_EQ(texts(), kNew);
 }
 
-TEST_F(ReplacementTrust, WhoMayChangeTheFolderMayChangeItsJournal) {
+TEST_F(ReplacementTrust, AnyoneWhoMayChangeTheFolderMayChangeItsJournal) {
   for (const fs::path& folder : {refs(), refs() / "sub"}) fs::permissions(folder, fs::perms(02775));
   replace(three());
   for (const char* made : {"", "last"})

@@ -17,7 +17,7 @@ TEST(Sha256, GivesTheDigestsThatTheStandardPublishes) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, OfAFileIsThatOfItsBytes) {
+TEST(Sha256, HashesAFileByItsBytes) {
   const TemporaryDirectory directory;
   const std::string text(300001, 'x');
   write_file(directory.path() / "file", text);

@@ -75,7 +75,7 @@ TEST(DraftName, TellsTheLivingFromTheDeadOfThisMachineAndNothingOfOthers) {
   EXPECT_EQ(with([](auto& p) { p.boot = std::string(32, '0'); }), Life::kUnknown);
 }
 
-TEST(Drafts, OfTheDeadGoAndThoseOfOthersStayUntilTheirSharedLockIsFree) {
+TEST(Drafts, GoOnceTheirMakerIsDeadOrTheirSharedLockIsFree) {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "cache";
   const ResultCache cache(path);
@@ -109,7 +109,7 @@ TEST(Drafts, OfTheDeadGoAndThoseOfOthersStayUntilTheirSharedLockIsFree) {
   EXPECT_EQ(found.removed + found.others, 4u);
 }
 
-TEST(Drafts, OfAFarmWhoseFileOfLocksWasRemovedStay) {
+TEST(Drafts, StayIfTheFileOfLocksWasRemoved) {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "cache";
   const ResultCache first(path);

@@ -43,7 +43,7 @@ std::set<std::string> variables(const fs::path& root) {
   return found;
 }
 
-TEST(Environment, page_names_every_variable_that_the_program_reads) {
+TEST(Environment, ThePageNamesEveryVariableThatTheProgramReads) {
   const std::string page = read(kRoot / "docs/environment.md");
   const auto found = variables(kRoot);
   EXPECT_THAT(found, IsSupersetOf({"LOBELIA_CACHE", "OCIO", "CI", "XDG_CACHE_HOME", "TMPDIR"}));
@@ -51,14 +51,14 @@ TEST(Environment, page_names_every_variable_that_the_program_reads) {
     EXPECT_NE(page.find("`" + variable + "`"), page.npos) << variable;
 }
 
-TEST(Environment, page_names_every_exit_code) {
+TEST(Environment, ThePageNamesEveryExitCode) {
   const std::string page = read(kRoot / "docs/environment.md");
   const auto codes = matches(read(kRoot / "core/error.hpp"), std::regex(R"re(\n  k\w+ = (\d+))re"));
   EXPECT_GT(codes.size(), 10u);
   for (const std::string& code : codes) EXPECT_THAT(page, HasSubstr("| `" + code + "` |"));
 }
 
-TEST(Paper, page_links_every_erratum) {
+TEST(Paper, ThePageLinksEveryErratum) {
   const std::string page = read(kRoot / "docs/paper.md");
   const auto errata =
       matches(read(kRoot / "docs/errata.md"),
@@ -155,7 +155,7 @@ Problems pages_out_of_the_index(const fs::path& root) {
   return problems;
 }
 
-TEST(Links, to_files_and_anchors_lead_somewhere) {
+TEST(Links, LeadToFilesAndAnchorsThatExist) {
   int pages = 0;
   for (const fs::path& file : project_files(kRoot)) {
     if (file.extension() != ".md") continue;
@@ -165,9 +165,9 @@ TEST(Links, to_files_and_anchors_lead_somewhere) {
   EXPECT_GT(pages, 50);
 }
 
-TEST(Index, links_every_page) { EXPECT_THAT(pages_out_of_the_index(kRoot), IsEmpty()); }
+TEST(Index, LinksEveryPage) { EXPECT_THAT(pages_out_of_the_index(kRoot), IsEmpty()); }
 
-TEST(Readme, is_short_and_has_a_command_early) {
+TEST(Readme, IsShortAndHasACommandEarly) {
   const std::string page = read(kRoot / "README.md");
   EXPECT_LE(lines(page).size(), 151u) << "150 lines, each of which ends";
   std::istringstream before(page.substr(0, page.find("```")));
@@ -191,7 +191,7 @@ class Site : public testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(Site, is_made_without_a_warning_and_finds_words) {
+TEST_F(Site, IsMadeWithoutAWarningAndFindsWords) {
   const Ran made = make_site(kRoot, scratch_ / "site");
   ASSERT_EQ(made.exit_code, 0) << made.output;
   EXPECT_EQ(made.output, (scratch_ / "site/index.html").string() + "\n");
@@ -202,13 +202,13 @@ TEST_F(Site, is_made_without_a_warning_and_finds_words) {
     EXPECT_NE(index.find(word), index.npos) << word;
 }
 
-TEST_F(Site, takes_no_other_folder_s_place) {
+TEST_F(Site, TakesNoOtherFoldersPlace) {
   write(scratch_ / "mine/letter.txt", "Dear");
   EXPECT_EQ(make_site(kRoot, scratch_ / "mine").exit_code, 4);
   EXPECT_EQ(read(scratch_ / "mine/letter.txt"), "Dear");
 }
 
-TEST_F(Site, with_a_dead_link_or_something_from_elsewhere_is_refused) {
+TEST_F(Site, IsRefusedWithADeadLinkOrAForeignFile) {
   for (const char* part : {"scripts/docs", "scripts/site"}) {
     fs::create_directories((scratch_ / part).parent_path());
     fs::copy(kRoot / part, scratch_ / part, fs::copy_options::recursive);

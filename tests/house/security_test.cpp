@@ -182,7 +182,7 @@ Problems differences(const fs::path& root, const std::string& page) {
   return problems;
 }
 
-TEST(SecurityPage, says_in_one_table_what_may_start_read_and_write_what) {
+TEST(SecurityPage, SaysInOneTableWhatMayStartReadAndWriteWhat) {
   EXPECT_THAT(differences(kRoot, read(kRoot / "SECURITY.md")), IsEmpty());
   for (const std::string& one : places_in_source(kRoot))
     if (one.ends_with(": remove")) {

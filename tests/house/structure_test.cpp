@@ -94,9 +94,7 @@ Problems forbidden_arrows(const fs::path& root) {
   return problems;
 }
 
-TEST(Rooms, arrows_between_rooms_point_down_only) {
-  EXPECT_THAT(forbidden_arrows(kRoot), IsEmpty());
-}
+TEST(Rooms, HaveArrowsThatPointDownOnly) { EXPECT_THAT(forbidden_arrows(kRoot), IsEmpty()); }
 
 // ---- lines that may not stand anywhere
 
@@ -135,7 +133,7 @@ Problems loose_keys(const fs::path& root) {
   });
 }
 
-TEST(Records, alone_spell_their_keys) { EXPECT_THAT(loose_keys(kRoot), IsEmpty()); }
+TEST(Records, AloneSpellTheirKeys) { EXPECT_THAT(loose_keys(kRoot), IsEmpty()); }
 
 /// Sources that are not generated and that nobody reads at one sitting.
 Problems long_files(const fs::path& root) {
@@ -153,11 +151,9 @@ Problems long_files(const fs::path& root) {
   return problems;
 }
 
-TEST(Files, have_at_most_500_lines) { EXPECT_THAT(long_files(kRoot), IsEmpty()); }
+TEST(Files, HaveAtMost500Lines) { EXPECT_THAT(long_files(kRoot), IsEmpty()); }
 
-TEST(Words, no_file_names_a_path_of_a_developers_machine) {
-  EXPECT_THAT(paths_of_a_machine(kRoot), IsEmpty());
-}
+TEST(Words, NameNoPathOfADevelopersMachine) { EXPECT_THAT(paths_of_a_machine(kRoot), IsEmpty()); }
 
 // ---- what the pages promise
 
@@ -208,7 +204,7 @@ std::set<std::string> make_targets(const std::string& makefile) {
 
 const std::vector<std::string> kPages = {"README.md", "CONTRIBUTING.md"};
 
-TEST(Pages, every_make_command_is_a_target) {
+TEST(Pages, NameOnlyTargetsOfMake) {
   const auto targets = make_targets(read(kRoot / "Makefile"));
   for (const std::string& page : kPages)
     for (const std::string& target : words_after("make", read(kRoot / page)))
@@ -218,7 +214,7 @@ TEST(Pages, every_make_command_is_a_target) {
     EXPECT_TRUE(promised.contains(target)) << "README.md does not mention make " << target;
 }
 
-TEST(Pages, every_lobelia_command_is_a_subcommand) {
+TEST(Pages, NameOnlySubcommandsOfLobelia) {
   const auto subcommands = words_after("lobelia", read(kRoot / "README.md"));
   EXPECT_FALSE(subcommands.empty());
   Scratch scratch;
@@ -232,7 +228,7 @@ TEST(Pages, every_lobelia_command_is_a_subcommand) {
   }
 }
 
-TEST(Pages, ci_runs_only_what_the_readme_says) {
+TEST(Pages, NameEveryCommandThatCiRuns) {
   const auto said = commands(read(kRoot / "README.md"));
   static const std::regex command("^ *(make .*)$");
   std::smatch match;

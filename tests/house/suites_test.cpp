@@ -66,7 +66,7 @@ std::vector<std::string> of_no_test(const std::vector<LongTests>& entries,
   return lost;
 }
 
-TEST(Suites, name_tests_that_there_are) {
+TEST(Suites, NameTestsThatExist) {
   const auto entries = long_tests(read(kRoot / "tests/suites.txt"));
   EXPECT_GT(entries.size(), 10u);
   EXPECT_THAT(of_no_test(entries, tests_in(kRoot)), IsEmpty());
@@ -79,7 +79,7 @@ std::string groups_of(const std::string& files) {
   return ran.output;
 }
 
-TEST(Suites, every_group_of_long_tests_is_called_for_by_some_change) {
+TEST(Suites, HaveEveryGroupCalledForBySomeChange) {
   const std::string table = read(kRoot / "scripts/change");
   for (const LongTests& entry : long_tests(read(kRoot / "tests/suites.txt")))
     EXPECT_TRUE(entry.group == "short" ||
@@ -87,7 +87,7 @@ TEST(Suites, every_group_of_long_tests_is_called_for_by_some_change) {
         << entry.group;
 }
 
-TEST(Suites, a_change_calls_for_what_it_can_break) {
+TEST(Suites, CallForTheGroupsThatAChangeCanBreak) {
   EXPECT_EQ(groups_of("docs/faq.md"), "cli docs python\n");
   EXPECT_EQ(groups_of("docs/mutants.md"), "docs\n");
   EXPECT_EQ(groups_of("tests/faults/inject"), "all_faults\n");
@@ -100,7 +100,7 @@ TEST(Suites, a_change_calls_for_what_it_can_break) {
   EXPECT_THAT(groups_of("'a new room/x.cpp'"), HasSubstr("whole"));
 }
 
-TEST(Suites, every_room_calls_for_something_of_its_own) {
+TEST(Suites, HaveAGroupForEveryRoom) {
   std::set<std::string> rooms;
   for (const fs::path& file : project_files(kRoot))
     if (is_cpp(file) && *file.begin() != "tests") rooms.insert(file.begin()->string());

@@ -46,7 +46,7 @@ std::vector<std::string> all_commands() {
   return commands;
 }
 
-TEST(ManPages, are_there_for_every_command_and_option_and_without_a_warning) {
+TEST(ManPages, CoverEveryCommandAndOptionWithoutAWarning) {
   if (!has_program("man")) GTEST_SKIP() << "man-db is not installed";
   const fs::path pages = installed_tree().prefix() / "share/man/man1";
   for (const std::string& command : all_commands()) {
@@ -95,7 +95,7 @@ std::set<std::string> candidates(const Ran& ran) {
   return words;
 }
 
-TEST(Completion, by_bash_knows_every_command_and_option) {
+TEST(Completion, KnowsEveryCommandAndOptionInBash) {
   const std::string script =
       "source \"$PREFIX\"/share/bash-completion/completions/lobelia; compopt() { :; }; "
       "read -ra COMP_WORDS <<< \"$1\"; [[ $1 != *\" \" ]] || COMP_WORDS+=(\"\"); "
@@ -106,7 +106,7 @@ TEST(Completion, by_bash_knows_every_command_and_option) {
   });
 }
 
-TEST(Completion, by_fish_knows_every_command_and_option) {
+TEST(Completion, KnowsEveryCommandAndOptionInFish) {
   if (!has_program("fish")) GTEST_SKIP() << "fish is not installed";
   expect_commands_and_options([&](const std::string& line) {
     return candidates(installed_tree().shell(
@@ -116,7 +116,7 @@ TEST(Completion, by_fish_knows_every_command_and_option) {
   });
 }
 
-TEST(Completion, by_zsh_completes_on_a_terminal) {
+TEST(Completion, CompletesOnATerminalInZsh) {
   if (!has_program("zsh")) GTEST_SKIP() << "zsh is not installed";
   // A shell of its own on a terminal, with a key that prints the line after the completion.
   const std::string script = R"(
@@ -141,7 +141,7 @@ TEST(Completion, by_zsh_completes_on_a_terminal) {
           "lobelia render --effects ", "lobelia compare --junit word.xml ", ""}));
 }
 
-TEST(Completion, scripts_have_no_error_that_shellcheck_knows) {
+TEST(Completion, HasNoErrorThatShellcheckFinds) {
   if (!has_program("shellcheck")) GTEST_SKIP() << "shellcheck is not installed";
   const Ran ran = installed_tree().shell(
       "shellcheck --shell=bash \"$PREFIX\"/share/bash-completion/completions/lobelia");

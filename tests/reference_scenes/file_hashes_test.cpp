@@ -136,7 +136,7 @@ TEST_F(ContentTest, SaysWhatIsWrongWithAHugeFile) {
   }
 }
 
-TEST_F(ContentTest, OfADirectoryIsOfAllFilesButPythonsCaches) {
+TEST_F(ContentTest, CoversAllFilesOfADirectoryButPythonsCaches) {
   FileHashes hashes{fs::path()};
   const auto content = [&] {
     ContentReader reader(hashes);

@@ -108,7 +108,7 @@ TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
   EXPECT_GT(600 * lit, 2000 * scenes);
 }
 
-TEST(RandomScenes, InEachPrecisionAreWithinItsBoundOfTheSameInFloat64) {
+TEST(RandomScenes, AreWithinEachPrecisionsBoundOfFloat64) {
   int tight = 0;
   double closest = 0;
   expect_of_random_scenes(SceneKind::kExact, 1200, [&](const Scene& random_one, Random&) {

@@ -134,7 +134,7 @@ TEST(SphereLight, DrawsEvenlyFromTheConeThatItFills) {
     expect_same_light(light, point, 3e-3);
 }
 
-TEST(SphereLight, OfAnySizeAndDistanceFillsItsSolidAngle) {
+TEST(SphereLight, FillsItsSolidAngleAtAnySizeAndDistance) {
   for (const double radius : {1e-9, 1e-3, 1.0, 1e6})
     for (const double ratio : {1 + 1e-9, 1.5, 1e3, 1e7}) {
       const OneByOne light(SphereLight{{0, 0, 0}, radius, {1, 1, 1}});
@@ -213,7 +213,7 @@ TEST(EnvironmentImage, DrawsInProportionToItsBrightnessBetweenThePixelsToo) {
   }
 }
 
-TEST(EnvironmentImage, OfOnePixelOrBlackOrEvenIsNoSpecialCase) {
+TEST(EnvironmentImage, MayBeOfOnePixelBlackOrEven) {
   const auto even = [](int, int) { return 2.0f; };
   const EnvmapTable one = with_image(1, 1, even);
   EXPECT_NEAR(one.look({0.6, 0.8, 0}).radiance().g, 2, 1e-6);

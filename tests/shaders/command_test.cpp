@@ -73,7 +73,7 @@ TEST_F(ExportCommand, IsWhatTheReferenceRendersOfPovrayInclude) {
   EXPECT_EQ(povray_input(scene).includes.at("lobelia_modified_phong_gauss.inc"), file("a.inc"));
 }
 
-TEST_F(ExportCommand, WhatItDoesNotKnowOrHaveIsExitCode2AndOneLine) {
+TEST_F(ExportCommand, RefusesTheUnknownWithExitCode2AndOneLine) {
   const auto expect_refusal = [&](std::vector<std::string> arguments, const char* said) {
     const ProcessResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2);
@@ -114,7 +114,7 @@ TEST_F(ExportCommand, WhatItDoesNotKnowOrHaveIsExitCode2AndOneLine) {
   expect_no_half({"glsl", "--precision", "mediump", "--formula", "c^n"}, "a formula may not hold");
 }
 
-TEST_F(ExportCommand, WhatCannotBeWrittenIsExitCode4AndLeavesNothing) {
+TEST_F(ExportCommand, LeavesNothingAndEndsWith4IfItCannotWrite) {
   EXPECT_EQ(run({"--language", "glsl", "phong_rdf", "-o", "nowhere/a.glsl"}).exit_code, 4);
   EXPECT_EQ(run({"--language", "glsl", "phong_rdf", "--lobe", "cs8", "--normalisation", "paper",
                  "-o", "a.glsl"})

@@ -154,7 +154,7 @@ void expect_the_same(const std::vector<ShaderExport>& some, const std::vector<Sh
     EXPECT_EQ(functions_of(some[i], replacements), functions_of(others[i], replacements));
 }
 
-TEST(HalfFloatExports, OfGlslAndHlslAreTheSameButForTheTypes) {
+TEST(HalfFloatExports, AreTheSameInGlslAndHlslButForTheTypes) {
   expect_the_same(every_half_export("glsl"), every_half_export("hlsl"),
                   {{"\n#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision mediump float;\n#endif\n", ""},
                    {"\\bmediump (float|vec3)\\b", "$1"},
@@ -235,7 +235,7 @@ TEST(AnExport, HasWhatSeveralModelsShareOnce) {
   }
 }
 
-TEST(AnExport, WithTheCoefficientAsAnArgumentHasItsFunctionButDoesNotCallIt) {
+TEST(AnExport, HasTheCoefficientsFunctionButTakesItAsAnArgument) {
   for (const ShaderExport& request : every_export("glsl")) {
     if (request.coefficient != CoefficientFrom::kArgument) continue;
     const std::string_view lobe = family(request.lobe);

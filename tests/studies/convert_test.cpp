@@ -90,7 +90,7 @@ TEST(Curve, IsHalfOfItsPeakAtOneAngleAlone) {
     }
 }
 
-TEST(Curve, OfGgxIsTintedByFresnelAwayFromTheMirrorDirectionAlone) {
+TEST(Curve, IsTintedByFresnelForGgxOnlyAwayFromTheMirror) {
   const Curve white(kGgxModel, 0.3, 1), grey(kGgxModel, 0.3, 0.04);
   EXPECT_EQ(white.peak(), grey.peak());
   // F / F0 by Schlick at an eye of 80 degrees, 40 from the half vector.
@@ -108,7 +108,7 @@ TEST(BestByWidth, IsAsWideAndComesBackToWhereItBegan) {
     }
 }
 
-TEST(Best, OfTheSameModelIsTheParameterItself) {
+TEST(Best, IsTheParameterItselfForTheSameModel) {
   for (int measure = 0; measure < 4; ++measure) {
     EXPECT_NEAR(best(model("phong_rdf"), 77, model("phong_rdf"), Measure(measure)) / 77, 1, 1e-5);
     EXPECT_NEAR(best(kGgxModel, 0.2, kGgxModel, Measure(measure)) / 0.2, 1, 1e-5);
@@ -237,7 +237,7 @@ TEST(Conversion, HasFiniteFiguresOverTheWholeRange) {
     expect_finite(convert({kGgxModel, model("modified_phong"), alpha, 0.04, Measure::kMax}));
 }
 
-TEST(Conversion, AtTheEndOfTheRangeSaysSo) {
+TEST(Conversion, SaysThatItIsAtTheEndOfTheRange) {
   // Blinn-Phong would need 4e8.
   const auto conversion =
       convert({model("phong_rdf"), model("blinn_phong_rdf"), 1e8, 1, Measure::kMax});

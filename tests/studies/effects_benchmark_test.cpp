@@ -61,7 +61,7 @@ TEST(LeavingOut, CostsThatEffectsWorkAndChangesThePicture) {
   }
 }
 
-TEST(LeavingOut, OfAnEffectThatIsOffCostsNothingAndChangesNoPixel) {
+TEST(LeavingOut, CostsNothingAndChangesNothingForAnEffectThatIsOff) {
   const RenderResult all = render(plain(), {});
   const auto off = effects_that_are(false, all.plan);
   EXPECT_GE(off.size(), 8u);

@@ -66,7 +66,7 @@ TEST(FixedPoint, IsExactlyWhatFractionsGive) {
   return rounded(x + whole, f) - whole;
 }
 
-TEST(FixedPoint, OfPkIsExactlyWhatFractionsGive) {
+TEST(FixedPoint, IsForPkExactlyWhatFractionsGive) {
   std::mt19937_64 random(1);
   for (const FixedRounding rounding : kRoundings)
     for (int bits = 6; bits <= 32; bits += 2)
@@ -158,7 +158,7 @@ TEST(CircuitErrors, StayBelowWhatTheRoundingsCanAddUpTo) {
         }
 }
 
-TEST(CircuitErrors, OfPkStayBelowTheirBoundAndEndAtTheShape) {
+TEST(CircuitErrors, StayBelowTheirBoundAndEndAtTheShapeForPk) {
   for (const FixedRounding rounding : kRoundings)
     for (const int k : {2, 4, 8, 16})
       for (const unsigned n : {16u, 64u, 1024u})
@@ -229,7 +229,7 @@ TEST(CircuitErrors, AreTheSumsOverAllStepsWhateverTheirNumber) {
       }
 }
 
-TEST(CircuitErrors, OfSomeOfTheStepsAreThoseOfAllWithinTheirStandardErrorsAndBounds) {
+TEST(CircuitErrors, AreTheSameOnSomeStepsWithinStandardErrorsAndBounds) {
   // 2^22 steps, all of which long double visits here.
   constexpr unsigned kN = 64;
   for (const FixedRounding rounding : kRoundings) {
@@ -273,7 +273,7 @@ TEST(CircuitErrors, OfSomeOfTheStepsAreThoseOfAllWithinTheirStandardErrorsAndBou
   }
 }
 
-TEST(CircuitErrors, OfOneBitAreSeenAtTheEndsOfSteps) {
+TEST(CircuitErrors, ShowAtTheEndsOfStepsForOneBit) {
   // n = 1, k = 2, one bit: s is 0, 1/2 or 1. For s just below 1/4 the value is 1 and cos is 3/4.
   const CircuitErrors e = circuit_errors(power_circuit({1, FixedRounding::kNearest}, 1), 1);
   EXPECT_THAT(e.max, DoubleNear(0.25, 1e-12));

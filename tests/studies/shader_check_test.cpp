@@ -121,7 +121,7 @@ TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
     }
 }
 
-TEST_F(ShaderCheck, WhatDoesNotCompileEndOrWriteIsOneLine) {
+TEST_F(ShaderCheck, RefusesInOneLineAShaderThatDoesNotCompileEndOrWrite) {
   const std::string head = "float highlight(vec3 N, vec3 V, vec3 L, float n)\n";
   const auto with = [&](const std::string& body, std::chrono::duration<double> time_limit = kHang) {
     shader_check::Request request = request_of("phong_rdf", head + body);

@@ -87,7 +87,7 @@ TEST(Directions, HoweverTheyAreDrawnBringTheSameLight) {
   expect_the_same_light(with_inter_reflection(below_rectangle(16)), Directions::kEven, 4096, 0.02);
 }
 
-TEST(Directions, ByTheLightAloneScatterNoRaysAndBySurfaceAloneCastNoShadowRays) {
+TEST(Directions, ScatterNoRaysByLightAloneAndCastNoShadowRaysBySurfaceAlone) {
   RenderOptions how;
   how.experiment.directions = Directions::kSurface;
   const Work surface = render_timed(below_rectangle(16), 4, 1, how).result.work;

@@ -186,7 +186,7 @@ TEST_F(Key, IsExplainedAsARecordToo) {
   EXPECT_FALSE(fs::exists(cache())) << "explaining makes nothing";
 }
 
-TEST_F(Key, OfACellThatDoesNotLieInTheFarmIsNotExplained) {
+TEST_F(Key, IsNotExplainedForACellOutsideTheFarm) {
   fake_povray();
   ASSERT_EQ(run().exit_code, 0);
   fs::create_directory_symlink("n16", out() / "cells" / "link");

@@ -72,7 +72,7 @@ TEST_F(SlurmCluster, IsFoundFitByTheDoctor) {
         << doctor_text(checks);
 }
 
-TEST_F(SlurmCluster, ThatIsDrainedIsReportedAndNotWaitedFor) {
+TEST_F(SlurmCluster, IsReportedAndNotWaitedForWhenDrained) {
   ToyWork toy(directory.path(), 4, 0.1);
   cluster.drain("n[1-3]");
   options.stall = std::chrono::seconds(1);

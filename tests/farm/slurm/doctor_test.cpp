@@ -126,7 +126,7 @@ TEST_F(Doctor, SeesEachFaultOfANode) {
   EXPECT_THAT(lock.advice, HasSubstr("one client"));
 }
 
-TEST_F(Doctor, OnANodeSeesALockThatIsGivenAwayTwice) {
+TEST_F(Doctor, SeesOnANodeALockThatIsGivenAwayTwice) {
   fs::create_directories(in("shared"));
   write_file(in("shared") / "token", "t");
   doctor_on_node(in("shared"));  // nobody holds it

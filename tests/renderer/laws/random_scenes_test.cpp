@@ -51,7 +51,7 @@ std::string wrong_counts(const RenderResult& r, std::string_view policy) {
   return wrong;
 }
 
-TEST(RandomScenes, WithEveryEffectForcedAreTheSameBitForBitWhereNothingIsRandom) {
+TEST(RandomScenes, AreTheSameBitForBitWithEveryEffectForced) {
   int lit = 0;
   expect_of_random_scenes(SceneKind::kExact, 400, [&](const Scene& scene, Random&) {
     const RenderResult planned = render(scene, with(EffectPolicy::kAsCalledFor)),
@@ -330,7 +330,7 @@ struct Sums {
   double variance_of_mean() const { return spread / (count - 1) / count; }
 };
 
-TEST(RandomScenes, WithEveryEffectForcedAreAsBrightWithinTheNoise) {
+TEST(RandomScenes, AreAsBrightWithinTheNoiseWithEveryEffectForced) {
   int noisy = 0;
   expect_of_random_scenes(SceneKind::kAny, 120, [&](const Scene& random_one, Random& random) {
     Scene scene = random_one;
