@@ -14,10 +14,8 @@ namespace lobelia {
 namespace {
 
 using testing::AllOf;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 namespace fs = std::filesystem;
 
 class OutsideEngines : public testing::Test {

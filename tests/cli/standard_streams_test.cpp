@@ -18,7 +18,6 @@ namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 /// A command that says something on stderr, and its exit code.
 struct Command {

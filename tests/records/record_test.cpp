@@ -16,8 +16,6 @@
 
 namespace lobelia::records {
 
-using testing::HasSubstr;
-using testing::StartsWith;
 
 constexpr std::string_view kColours[] = {"red", "green"};
 

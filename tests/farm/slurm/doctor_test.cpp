@@ -10,7 +10,6 @@ namespace lobelia {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
 using Verdict = DoctorCheck::Verdict;
 
 class Doctor : public FakeSlurm {
