@@ -146,7 +146,7 @@ TEST(Colours, AreForTerminalsWithoutNoColor) {
   }
 }
 
-/// What users take for a scene.
+/// Files that users take for a scene.
 TEST(Scene, IsNamedIfItIsOfAnotherProgram) {
   const TemporaryDirectory directory;
   for (const auto& [text, named] : {

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
   const TemporaryDirectory directory;
-  // What runs us may have given us a namespace without a /proc of its own.
+  // The caller may have given us a namespace without a /proc of its own.
   const auto here =
       run_shell("read process rest < /proc/self/stat; [ $process = $$ ]", directory.path());
   const auto usual = run_shell("\"$LOBELIA\" farm doctor", directory.path());

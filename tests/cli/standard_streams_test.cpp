@@ -174,7 +174,7 @@ class FullPipe {
     ends_[1] = -1;
     return pid;
   }
-  /// What the program wrote, once it has ended.
+  /// The program's output, once it has ended.
   std::string rest() const {
     std::string all;
     std::array<char, 4096> piece{};

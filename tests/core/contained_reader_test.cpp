@@ -219,7 +219,7 @@ TEST_F(ContainedReader, RefusesPicturesThatNoFileOfTheirSizeHolds) {
 }
 
 TEST_F(ContainedReader, HoldsAPictureToTheLimitOfWhoeverAsksBeforeItIsUnpacked) {
-  // Of no pixel is there a value, so that whoever unpacks it finds it damaged.
+  // No pixel has a value, so that a decoder that unpacks it finds it damaged.
   const std::string png =
       "\x89PNG\r\n\x1a\n" +
       png_chunk("IHDR", big_endian(1100) + big_endian(1000) + "\x08\x02" + std::string(3, '\0')) +

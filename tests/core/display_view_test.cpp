@@ -70,7 +70,7 @@ class DisplayViews : public ::testing::Test {
     ADD_FAILURE() << "it was opened";
     return "";
   }
-  /// What a view makes of one value in red, green and blue.
+  /// A view's output for one value in red, green and blue.
   static float grey(const DisplayView& view, float value, double stops = 0) {
     Image image(1, 1);
     for (float& v : image.values()) v = value;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the file says; "-" and the error's number where it is not opened.
+/// The file's text; "-" and the error's number where it is not opened.
 template <class Open>
 std::string content(const fs::path& directory, const std::vector<std::string>& names, Open open) {
   const int place = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

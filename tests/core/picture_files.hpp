@@ -289,7 +289,7 @@ inline void write_exr_parts(const std::filesystem::path& path, const std::vector
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const ExrPart& part = parts[p];
     const auto width = std::size_t(part.data.max.x - part.data.min.x + 1);
-    // What each channel stores; kept until it is written.
+    // The values that each channel stores, kept until they are written.
     std::vector<std::vector<half>> halves;
     std::vector<std::vector<std::uint32_t>> numbers;
     halves.reserve(part.channels.size());

@@ -1,4 +1,4 @@
-// What the values of a file mean, by files made for that.
+// The meaning of a file's values, by files made for that.
 #include <ImfEnvmap.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>

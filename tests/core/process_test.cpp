@@ -86,7 +86,7 @@ TEST(Process, IsNotTakenForHangingWhileItTalksOrWrites) {
 }
 
 TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrensAndNotOurs) {
-  // What we have had is not theirs, though the kernel hands it on to whoever is started.
+  // Our peak is not theirs, though the kernel hands it on to each program that is started.
   ASSERT_NE(std::string(256 << 20, 'x'), "");
   const auto idle = run_process(shell("sleep 0.3"), {});
   EXPECT_LT(idle.cpu_seconds, idle.seconds);
@@ -318,7 +318,7 @@ INSTANTIATE_TEST_SUITE_P(Process, Contained,
 
 TEST(Process, IsContainedForAUserWithoutAnyRights) {
   if (::geteuid() != 0) GTEST_SKIP() << "the other tests are those of such a user";
-  // Of copies: nobody may enter the directory of the build.
+  // Runs copies: nobody may enter the directory of the build.
   const TemporaryDirectory directory;
   std::filesystem::permissions(directory.path(), std::filesystem::perms(0755));
   const auto test = std::filesystem::read_symlink("/proc/self/exe");

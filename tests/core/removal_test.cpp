@@ -1,4 +1,4 @@
-// What the one function that removes does, and what it refuses.
+// Removal: what it takes away, and what it refuses.
 #include "core/removal.hpp"
 
 #include <fmt/format.h>
@@ -185,7 +185,7 @@ TEST_F(RemovalTest, ADryRunTellsExactlyWhatGoesAndTakesNothing) {
     std::vector<fs::path> wanted;
     for (const auto& entry : fs::recursive_directory_iterator(root()))
       wanted.push_back(entry.path().lexically_relative(root()));
-    // What is in a directory before the directory, in one order for both.
+    // Entries before their directory, in one order for both.
     std::ranges::sort(wanted, std::greater());
     const auto before = all_paths(root());
     std::vector<std::string> would_go, went;

@@ -1,4 +1,4 @@
-// What a replacement trusts: of the files that a killed process left, the directory that keeps them, and its journal.
+// A replacement trusts neither the files of a killed process, nor their directory, nor its journal, without a check.
 #include "core/replacement.hpp"
 #include "core/replacement_journal.hpp"
 #include "tests/core/replacement_fixture.hpp"

@@ -123,7 +123,7 @@ TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
   EXPECT_EQ(summary.foreign, 0u);
   EXPECT_EQ(run_farm(grid("16"), out(), {}).foreign, 2u);
   EXPECT_EQ(summary.unchecked, 3u);
-  // What is gone from the directory comes back from the cache.
+  // Files that are gone from the directory come back from the cache.
   for (const char* file :
        {"lobelia.exr", "lobelia.png", "scene.xml", "profile.json", "cell.json"}) {
     fs::remove(in_cell("n32", file));

@@ -26,7 +26,7 @@ std::set<std::string> matches(const std::string& text, const std::regex& pattern
   return found;
 }
 
-/// That the source reads by name, or in a list of names; and those of ours that it mentions.
+/// Variables that the source reads by name or in a list of names, and those of ours that it mentions.
 std::set<std::string> variables(const fs::path& root) {
   static const std::regex read_one(R"re((?:getenv|set)\("([A-Z_]+)"\))re");
   static const std::regex list(R"re((\{\s*(?:"[A-Z_]+",\s*)+"[A-Z_]+"\s*\}))re"),

@@ -14,7 +14,7 @@ namespace {
 using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
 
-/// What a file may do beside the gate.
+/// The lines by which a file may pass the gate.
 struct Allowed {
   std::string file, because;
   std::vector<std::string> code;  ///< a part of each line, in their order

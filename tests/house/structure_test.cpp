@@ -19,7 +19,7 @@ using Problems = std::vector<std::string>;
 
 // ---- arrows between rooms
 
-/// What each room may see besides itself. tests, bench and fuzz may see everything.
+/// The rooms that each room may see besides itself. tests, bench and fuzz may see everything.
 const std::map<std::string, std::set<std::string>> kMaySee = {
     {"core", {}},
     {"records", {"core"}},

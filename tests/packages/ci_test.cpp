@@ -1,4 +1,4 @@
-// What runs on machines that the tests do not have: the script inside, and the shape of the files around it.
+// Templates for machines that the tests do not have: the script inside, and the shape of the files around it.
 #include <gmock/gmock.h>
 
 #include <regex>

@@ -36,7 +36,7 @@ std::set<std::string> options(const std::string& command) {
   return matches(help_of(command), word);
 }
 
-/// Of every command, "" and "farm status" too.
+/// The names of every command, "" and "farm status" too.
 std::vector<std::string> all_commands() {
   std::vector<std::string> commands{""};
   for (std::size_t i = 0; i < commands.size(); ++i)

@@ -1,4 +1,4 @@
-"""What needs pandas, matplotlib or Jupyter."""
+"""Tests that need pandas, matplotlib or Jupyter."""
 
 import os
 

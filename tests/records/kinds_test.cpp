@@ -98,7 +98,7 @@ class RandomRecords {
     return made;
   }
 
-  /// What a schema cannot say: see the checks of the tables.
+  /// Sets values that no schema states: see the checks of the tables.
   Json known(const std::string& name, Json made) {
     if (name == "NonfinitePlace") made["value"] = "nan";
     if (name == "CosineLobe") made["because"] = "why";

@@ -16,7 +16,6 @@
 
 namespace lobelia::records {
 
-
 constexpr std::string_view kColours[] = {"red", "green"};
 
 struct Part {
@@ -70,7 +69,7 @@ Sample sample() {
   return made;
 }
 
-/// What is said of the sample with another value at a place.
+/// The error for the sample with another value at a place.
 std::string refusal(const std::string& pointer, const Json& value) {
   Json json = as_json(sample());
   json[Json::json_pointer(pointer)] = value;

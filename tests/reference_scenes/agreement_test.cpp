@@ -12,7 +12,7 @@
 namespace lobelia {
 namespace {
 
-/// What the engine's number format and precision leave, and no more.
+/// The error that the engine's number format and precision leave, and no more.
 struct Tolerance {
   double relative, of_peak;
 };
@@ -125,7 +125,7 @@ TEST_P(Agreement, HoldsForSchlicksFactorWhereItMattersMost) {
       scene.materials[0].specular_reflectance = {0.02, 0.5, 0};
       scenes.push_back({fmt::format("{} at {} degrees", model.name, degrees), scene});
     }
-  // What POV-Ray would shade by itself were it not for the factor.
+  // POV-Ray would shade this by itself, were it not for the factor.
   Scene grey = sphere_scene({"phong_rdf", "cosine", "exact", 20}, {directional_at(100)}, 64);
   grey.materials[0].specular_reflectance = 0.04 * kWhite;
   grey.materials[0].fresnel = Fresnel::kSchlick;

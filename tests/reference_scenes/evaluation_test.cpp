@@ -25,7 +25,7 @@ using truth::Digits;
 constexpr HighlightChoice kPhong{"phong_rdf", "cosine", "exact", 9};
 
 std::vector<Rgb> picture(const Scene& scene) { return truth::evaluate(scene, Digits::kDouble); }
-/// Of an odd film.
+/// The middle pixel of an odd film.
 Rgb middle(const Scene& scene) {
   const auto all = picture(scene);
   return all[all.size() / 2];

@@ -1,4 +1,4 @@
-// What is written down for the engines: numbers in full, and nothing that a person typed.
+// Input of the engines: numbers in full, and nothing that a person typed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

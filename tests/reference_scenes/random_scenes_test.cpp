@@ -27,7 +27,7 @@ Scene told_by_formulas(Scene scene) {
   return scene;
 }
 
-/// Of each pixel, what its highlights would be with every lobe at its peak, and how much of it a precision may
+/// For each pixel, the sum of its highlights with every lobe at its peak, and how much of it a precision may
 /// be off by.
 struct PixelPeaks {
   std::vector<double> peak, allowed;

@@ -1,4 +1,4 @@
-// What lights with a size draw, against what a ray meets of them.
+// Draws from lights with a size, against what a ray meets of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -238,7 +238,7 @@ TEST(SmoothLuminance, LeavesAtMostFourTimesTheMeanOfWhatIsBelowIt) {
   });
   EXPECT_GT(with_sun, 1);
   EXPECT_LT(with_sun, 2.2);
-  // What fills too little of the sky is drawn as a whole.
+  // A patch that fills too little of the sky is drawn as a whole.
   EXPECT_LT(smooth([](int x, int y) { return x < 4 && y == 9 ? 1.0f : 0.0f; }), 1e-3);
 }
 

@@ -1,4 +1,4 @@
-// What lobes and models cost in arithmetic, against a count by hand.
+// The arithmetic of lobes and models, against a count by hand.
 #include <gtest/gtest.h>
 
 #include "renderer/operation_count.hpp"

@@ -39,7 +39,7 @@ class CompiledByGlslang : public testing::Test {
     GTEST_SKIP() << "no program 'glslangValidator': sudo apt-get install glslang-tools";
   }
 
-  /// What the compiler says of the shaders that were written; empty if they are all right.
+  /// The compiler's complaints about the shaders that were written; empty if there are none.
   std::string complaints(std::vector<std::string> options) {
     options.insert(options.begin(), compiler_.string());
     options.insert(options.end(), files_.begin(), files_.end());

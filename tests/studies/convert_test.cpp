@@ -67,14 +67,14 @@ TEST(Curve, HasTheHalfWidthOfTheClosedForm) {
   for (const char* name : {"phong_rdf", "modified_phong"})
     for (const double n : {1e-3, 3.0, 32.0, 1e4, 1e8})
       EXPECT_NEAR(Curve(model(name), n, 1).half_width() / cosine_half_width(n + 1), 1, 1e-12) << n;
-  // Of a small highlight the cosine of the eye is 1.
+  // For a small highlight the cosine of the eye is 1.
   EXPECT_NEAR(Curve(model("blinn_phong_ndf"), 1e8, 1).half_width() / (2 * cosine_half_width(1e8)),
               1, 1e-7);
   // (sin a)^2 = alpha^2 (sqrt(2) - 1) / (1 - alpha^2) is where D is half.
   const double alpha = 1e-4,
                half_vector = std::asin(alpha * std::sqrt((std::sqrt(2) - 1) / (1 - alpha * alpha)));
   EXPECT_NEAR(Curve(kGgxModel, alpha, 1).half_width() / (2 * half_vector), 1, 1e-7);
-  // Of alpha 1 the curve is cos x / (2 pi (1 + cos x)).
+  // For alpha = 1 the curve is cos x / (2 pi (1 + cos x)).
   EXPECT_NEAR(Curve(kGgxModel, 1, 1).half_width(), std::acos(1 / 3.0), 1e-14);
 }
 
@@ -176,7 +176,7 @@ TEST(Errors, AreThoseOfAnotherImplementation) {
 
 TEST(Rules, HaveThePeaksOfTheDistributionsAndTheWidthsThatAreQuoted) {
   const double n = 32;
-  // Of the distributions alone, as functions of the angle of N from H.
+  // The distributions alone, as functions of the angle of N from H.
   const auto peak = [&](double alpha) { return 1 / (kPi * alpha * alpha) / ((n + 2) / (2 * kPi)); };
   const double walter = std::sqrt(2 / (n + 2)), blender = std::pow(1 - std::sqrt(n / 1000), 2);
   const records::Conversion conversion =

@@ -1,4 +1,4 @@
-// What engines cost, and their own light transport, against ours and on scenes that they refuse.
+// The cost of engines and their own light transport, against ours and on scenes that they refuse.
 #include "studies/cost/benchmarks.hpp"
 
 #include <gmock/gmock.h>

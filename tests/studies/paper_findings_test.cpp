@@ -1,4 +1,4 @@
-// What of the paper holds: every figure that docs/errata.md leans on. Values come from an independent
+// Claims of the paper: every figure that docs/errata.md leans on. Values come from an independent
 // calculation or a closed form; tolerances are about half a unit of what is printed. And what is made of the
 // measured claims: the errata, the record, the table, the plots, the command.
 #include <gmock/gmock.h>

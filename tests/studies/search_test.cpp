@@ -216,7 +216,7 @@ TEST(Search, FindsNoLobesNearerThanTheCatalogues) {
 }
 
 TEST(Search, TimesWhatItFound) {
-  // What is timed is the lobe: the value in float32 is that in double.
+  // The timed function is the lobe: its value in float32 is that in double.
   constexpr std::size_t kCount = 4096;
   const auto s = aligned_floats(kCount), value = aligned_floats(kCount);
   for (std::size_t i = 0; i < kCount; ++i) s[i] = float(i) / kCount;

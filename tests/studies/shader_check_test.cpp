@@ -199,7 +199,7 @@ TEST_F(ShaderCheck, ThePageHasPicturesAndEscapesTheFilesName) {
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
 }
 
-/// What a shader with the mistake would give without rounding but that of the result.
+/// The value of a shader with the mistake, with no rounding but that of the result.
 shader_check::Observed observed_of(const Highlight& highlight,
                                    const shader_check::Mistake& mistake) {
   shader_check::Observed observed;

@@ -1,4 +1,4 @@
-// What others, and disks, do to a cache.
+// Damage that other programs and disks do to a cache.
 #include <sys/stat.h>
 
 #include <algorithm>

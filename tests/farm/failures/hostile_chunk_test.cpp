@@ -100,7 +100,7 @@ TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
                          Json::object(),
                          Json::array({Json::object()})};
   for (const auto& [key, value] : good_.items()) {
-    // What only names another machine is handed back (chunk_test).
+    // A chunk that only names another machine is handed back (chunk_test).
     if (key == "madeBy" || key == "program" || key == "libraries") continue;
     Json without = good_;
     without.erase(key);

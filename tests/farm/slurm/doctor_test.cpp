@@ -102,7 +102,7 @@ TEST_F(Doctor, SeesAJobThatEndsWithoutAnAnswerAndOneThatNeverStarts) {
   EXPECT_THAT(lines("cancelled").back(), HasSubstr("lobelia-doctor-"));
 }
 
-/// What a node with a fault of that kind would answer.
+/// The answer of a node with a fault of that kind.
 TEST_F(Doctor, SeesEachFaultOfANode) {
   const auto with = [&](const std::string& key, const std::string& value) {
     write_file(

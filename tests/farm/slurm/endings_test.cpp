@@ -1,4 +1,4 @@
-// What follows when Slurm ends elements, and when nodes hand work back, with programs that only pretend.
+// Elements that Slurm ends and work that nodes hand back, with programs that only pretend.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

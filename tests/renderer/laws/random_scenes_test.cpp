@@ -250,7 +250,7 @@ TEST(RandomScenes, AreTheSameBitForBitByFusedKernelsAndInAnyNumberOfThreads) {
   expect_of_random_scenes(SceneKind::kAny, 100, law);
 }
 
-/// What a record says of the render, but for its times.
+/// The record of the render, but for its times.
 std::string figures(const RenderResult& r) {
   return fmt::format("{} samples, error {:.17g}, stopped {}, rays {} {} {} {}, work {}", r.samples,
                      r.error.value_or(-1), r.stop_reason, r.work.camera_rays, r.work.shadow_rays,

@@ -16,7 +16,7 @@ Material material(const Highlight& h, bool with_base) {
                    : Material{"", h, {1, 1, 1}, {}};
 }
 
-/// Of `tests` all of which are right, one fails with this probability in all (Sidak).
+/// The level of one test at which one of `tests` that are all right fails with a probability of 1 % in all (Sidak).
 double significance(std::size_t tests) { return 1 - std::pow(1 - 0.01, 1.0 / double(tests)); }
 
 void expect_draws_as_the_pdf_says(const std::vector<Highlight>& cases, bool with_base) {
