@@ -178,7 +178,7 @@ TEST(Accuracy, KeepsHighlightsThatDifferWhereNoLobeStandsForAll) {
   EXPECT_TRUE(as_json(accuracy_record(choice, {}))["chose"]["lobe"].is_null());
 }
 
-TEST(Accuracy, WithoutABoundIsTheScenesOwnLobeInFloat64) {
+TEST(Accuracy, TakesTheScenesOwnLobeInFloat64WithoutABound) {
   // Light from straight ahead: some half vector is unknown, and no precision has a bound.
   Scene s = with_highlight(scene("head_on"), 64, "cosine", "blinn_phong_rdf");
   std::get<DirectionalLight>(s.lights[0]).direction = {0, 0, 1};

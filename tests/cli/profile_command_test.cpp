@@ -88,7 +88,7 @@ TEST_F(ProfileCommand, MeasuresEveryHighlightOfASceneUnlessOneIsChosen) {
   EXPECT_EQ(one, all["profiles"][1]);
 }
 
-TEST_F(ProfileCommand, WithoutASceneMeasuresEveryHighlight) {
+TEST_F(ProfileCommand, MeasuresEveryHighlightOfAPictureWithoutAScene) {
   const auto result = run({"profile", "oblique_45.exr", "two_lights.exr"});
   EXPECT_EQ(result.exit_code, 0);
   for (const char* words :

@@ -127,7 +127,7 @@ TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
 }
 
-TEST(RenderCommand, WithoutModulesIsStillHelpful) {
+TEST(RenderCommand, NamesTheMissingModuleAndRendersWithoutIt) {
   // They are loaded only when they are needed: help, plans and EXRs need none.
   const TemporaryDirectory directory;
   const auto result = run_shell(

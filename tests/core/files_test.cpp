@@ -40,7 +40,7 @@ ExitCode code_of(const std::function<void()>& action) {
   return ExitCode::kSuccess;
 }
 
-TEST(WriteFile, WhereNoFileCanBeIsAnOutputErrorThatNamesTheFile) {
+TEST(WriteFile, FailsWithTheNameWhereNoFileCanBe) {
   const TemporaryDirectory directory;
   const fs::path here = directory.path(), pipe = here / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -58,7 +58,7 @@ TEST(WriteFile, WhereNoFileCanBeIsAnOutputErrorThatNamesTheFile) {
   EXPECT_EQ(entries(here), 1u);
 }
 
-TEST(WriteFile, ThroughALinkReplacesTheFileBehindIt) {
+TEST(WriteFile, ReplacesTheFileBehindALink) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "real", "old");
   fs::create_symlink("real", directory.path() / "link");

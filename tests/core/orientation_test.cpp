@@ -246,7 +246,7 @@ TEST_F(Orientation, ComesFromTheAxesOfARadianceFile) {
       }
 }
 
-TEST_F(Orientation, WithoutAMeaningIsUpright) {
+TEST_F(Orientation, IsUprightWithoutAMeaning) {
   const Pixels shown = random_pixels(3, 2);
   const Image upright = read_image(file("upright.png", png_of(shown, "")));
   std::string damaged = png_chunk("eXIf", exif(3));

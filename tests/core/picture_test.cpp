@@ -68,7 +68,7 @@ TEST_F(Layers, AreReadFromTheirPart) {
 
 using Windows = PictureFiles;
 
-TEST_F(Windows, WhereThereAreNoDataThePictureIsBlackAndWhatLiesOutsideIsCutOff) {
+TEST_F(Windows, LeaveBlackWhereNoDataAreAndCutOffTheRest) {
   // Data on (1, 1) to (3, 2), of a display on (-1, 0) to (2, 3).
   const auto path =
       exr("a.exr", {{"", window(1, 1, 3, 2), window(-1, 0, 4, 4), {{"Y", {1, 2, 3, 4, 5, 6}}}}});

@@ -189,7 +189,7 @@ TEST_F(PlainPicture, ReadsDamagedFilesAsOpenImageIoDoesOrLeavesThem) {
   EXPECT_GT(plain_ones, 40);
 }
 
-TEST_F(PlainPicture, WithoutABlockFarBelowIsLeftToOpenImageIoBeforeAnyBandIsGivenOn) {
+TEST_F(PlainPicture, LeavesAFileWithoutABlockBeforeAnyBandIsGivenOn) {
   const Image image(2100, 2060);
   const auto path = directory_.path() / "large.exr";
   write_exr(path, image, {});

@@ -38,7 +38,7 @@ TEST(Process, ReportsItsExitCodeAndItsOutputLineByLine) {
   EXPECT_EQ(result.output_tail, "one\ntwo\nthree");
 }
 
-TEST(Process, OverItsTimeIsKilled) {
+TEST(Process, IsKilledAfterItsTime) {
   ProcessOptions options;
   options.timeout = std::chrono::milliseconds(300);
   const auto result = run_process(shell("sleep 1000"), options);
@@ -46,7 +46,7 @@ TEST(Process, OverItsTimeIsKilled) {
   EXPECT_FALSE(result.no_progress);
 }
 
-TEST(Process, WithoutAnySignOfProgressIsKilledLongBeforeItsTime) {
+TEST(Process, IsKilledEarlyWithoutAnySignOfProgress) {
   ProcessOptions options;
   options.no_progress_limit = seconds(5);  // enough to begin on a busy machine
   const auto silent = run_process(shell("echo begun; sleep 1000"), options);

@@ -86,7 +86,7 @@ TEST_F(ReplacementTrust, OldFilesArePrivateWhereOneOfTheirFoldersIs) {
   EXPECT_EQ(mode_of_last(0711), 0700u) << "who may not list it does not know the names in it";
 }
 
-TEST_F(ReplacementTrust, NobodyElseMayChangeTheDirectoryWhereEverybodyMayMakeEntries) {
+TEST_F(ReplacementTrust, OthersMayNotChangeTheDirectoryWhereAllMayMakeEntries) {
   fs::permissions(refs(), fs::perms(01777));
   replace(three());
   EXPECT_EQ(mode(kReplacedName), 0755u);

@@ -206,7 +206,7 @@ TEST(Rules, BackFromGgxAreTheInverse) {
     }
 }
 
-TEST(Rules, WithoutAHighlightSayWhy) {
+TEST(Rules, SayWhyTheyGiveNoHighlight) {
   const auto to_ggx =
       convert({model("blinn_phong_heightfield"), kGgxModel, 1000, 1, Measure::kMax});
   EXPECT_EQ(row(to_ggx.rules, "Blender").because, "alpha 0 is a mirror");
@@ -265,7 +265,7 @@ TEST(Range, HasTheParametersOfItsConversions) {
   EXPECT_EQ(range_chart(table).series.size(), 1u + 5u);
 }
 
-TEST(Range, WithoutAnAnswerHasAGap) {
+TEST(Range, HasAGapWithoutAnAnswer) {
   const auto text = range_text(convert_range({kGgxModel, model("phong_rdf"), 0, 1, Measure::kMax}));
   EXPECT_THAT(text, testing::HasSubstr(" - "));
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("nan")));

@@ -297,7 +297,7 @@ TEST(LobeTable, HasEveryVariantWithItsTimeErrorsAndOperations) {
   EXPECT_THAT(table.remarks, Contains(HasSubstr("a bracket: the largest found")));
 }
 
-TEST(LobeLevel, HasATableForEachExponentAndTheTwoAnglesInHalfFloatsWithEveryLobeInEveryForm) {
+TEST(LobeLevel, HasATableForEachExponentAndForBothAnglesInHalfFloats) {
   Options options;
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);

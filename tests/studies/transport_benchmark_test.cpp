@@ -79,7 +79,7 @@ void expect_the_same_light(const Scene& scene, Directions directions, int sample
   EXPECT_NEAR(mean(render_timed(scene, samples, 2, how).result.image) / planned, 1, relative);
 }
 
-TEST(Directions, HoweverTheyAreDrawnBringTheSameLight) {
+TEST(Directions, BringTheSameLightHoweverTheyAreDrawn) {
   Scene scene = everything();
   scene.film = {16, 16};
   for (const Directions directions : {Directions::kLight, Directions::kSurface, Directions::kEven})

@@ -64,7 +64,7 @@ TEST_F(FakeSlurm, GivesNoAnswerWithOddWords) {
 
 // ---- whole runs
 
-TEST_F(FakeSlurm, IsAskedForAnArrayOfPicturesThenForOneOfWhatReadsThemThenForTheEndAndOnlyOnce) {
+TEST_F(FakeSlurm, IsAskedOnceForPicturesThenComparisonsThenTheEnd) {
   jobs(6);
   toy.add({"compared", 1, 0, "compare"});
   options.slurm.partition = "render";
