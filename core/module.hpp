@@ -36,7 +36,6 @@ inline constinit Module colour_module{"lobelia_colour.so", "colour module"};
 inline constinit Module embree_module{"lobelia_embree.so", "Embree's module"};
 inline constinit Module glpk_module{"lobelia_glpk.so", "GLPK's module"};
 inline constinit Module png_module{"lobelia_png.so", "PNG module"};
-inline constinit Module server_module{"lobelia_server.so", "server module"};
 inline constinit Module zip_module{"lobelia_zip.so", "ZIP module"};
 
 class ModuleAddress {
@@ -54,7 +53,7 @@ class ModuleAddress {
   std::atomic<void*> found_{nullptr};
 };
 
-/// A function of a library that a module brings: ModuleFunction<decltype(::zip_open)>.
+/// A function of a library that a module brings: ModuleFunction<decltype(::rtcNewDevice)>.
 template <class Function>
 class ModuleFunction;
 template <class Result, class... Arguments>
@@ -65,16 +64,6 @@ class ModuleFunction<Result(Arguments...)> : ModuleAddress {
     return reinterpret_cast<Result (*)(Arguments...)>(find())(arguments...);
   }
 };
-template <class Result, class... Arguments>
-class ModuleFunction<Result(Arguments..., ...)> : ModuleAddress {
- public:
-  using ModuleAddress::ModuleAddress;
-  template <class... More>
-  Result operator()(Arguments... arguments, More... more) {
-    return reinterpret_cast<Result (*)(Arguments..., ...)>(find())(arguments..., more...);
-  }
-};
-
 /// Defines `function`, which hides that of the library.
 #define LOBELIA_MODULE_FUNCTION(module, function) \
   constinit ModuleFunction<decltype(::function)> function { module, #function }

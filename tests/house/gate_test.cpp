@@ -130,7 +130,7 @@ bool opens(const std::string& code) {
   static const std::regex objects(
       R"re(\b(InputFile|PictureFile)\b(?!\s*[&:;]|\(\)|\s+[\w:]+\((const\b|\))))re"),
       calls(R"re(\b(read_file|read_picture|read_image|read_record|read_scene|layer_names|)re"
-            R"re(sha256_of_file|open_beneath\w*)\b(?!\s*\(const\b)|\bw?i?fstream\b|\bfilebuf\b|)re"
+            R"re(sha256_of_file)\b(?!\s*\(const\b)|\bw?i?fstream\b|\bfilebuf\b|)re"
             R"re(\bf(d|re)?open\b|(^|[^\w>])::(openat2?|open)\s*\(|\bSYS_openat2?\b)re");
   return std::regex_search(code, objects) || std::regex_search(code, calls);
 }

@@ -134,7 +134,7 @@ std::set<std::string> columns_of_calls(const fs::path& file) {
   static const std::vector<std::pair<std::string, std::regex>> calls{
       {"starts", std::regex(R"re(\b(run_engine|refuse_without_leave)\s*\((?!const\b))re")},
       {"reads", std::regex(R"re(\b(read_file|read_picture|read_record|read_scene|open_named|)re"
-                           R"re(InputFile|PictureFile|open_beneath)\b)re")},
+                           R"re(InputFile|PictureFile)\b)re")},
       {"writes", std::regex(R"re(\b(write_file|write_record|PartFile|make_directories)\b)re")}};
   std::set<std::string> found;
   for (const std::string& line : lines(read(file)))
