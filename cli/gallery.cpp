@@ -59,15 +59,14 @@ void write_site(const std::string& run, const gallery::GalleryOptions& options, 
 
 void add_publish(CLI::App& gallery, ExitCode& exit_code) {
   auto* command = gallery.add_subcommand(
-      "publish", "Write a gallery for others: a folder for a web server, a zip, or one HTML file");
+      "publish", "Write a gallery for others: a folder for a web server, or one HTML file");
   auto run = std::make_shared<std::string>();
   auto options = std::make_shared<gallery::GalleryOptions>();
   auto with_host = std::make_shared<bool>(false);
   command->add_option("RUN", *run, "The directory that 'lobelia farm' wrote")->required();
   OptionGroup group(*command);
   add_common(group, "--output", options->site,
-             ": a zip if it ends in .zip, one HTML file if it ends in .html, otherwise a folder",
-             "OUT")
+             ": one HTML file if it ends in .html, otherwise a folder", "OUT")
       ->required();
   add_site_options(*command, group, options);
   command->add_option("--cell", options->only_cell,
@@ -87,7 +86,7 @@ void add_publish(CLI::App& gallery, ExitCode& exit_code) {
       "something else, or would be larger than its form allows.\n\n"
       "Examples:\n"
       "  lobelia gallery publish run -o site\n"
-      "  lobelia gallery publish run -o site.zip --metrics-only\n"
+      "  lobelia gallery publish run -o site --metrics-only\n"
       "  lobelia gallery publish run -o cell.html --cell phong_rdf-n16",
       gallery::kMostCellsOfPage, gallery::kMostBytesOfPage >> 20));
   command->callback([run, options, with_host, limits, &exit_code] {

@@ -61,7 +61,7 @@ function(lobelia_compile_quickly target room)
   endif()
 endfunction()
 
-# lobelia_module(zip USER lobelia_gallery LINK PkgConfig::LibZip): a module (core/module.hpp), built with its user. Without
+# lobelia_module(glpk USER lobelia_studies LINK ${GLPK_LIBRARY}): a module (core/module.hpp), built with its user. Without
 # SOURCES it has no code and only brings libraries. The shared library needs modules too, so all are in its package.
 function(lobelia_module name)
   cmake_parse_arguments(ARG "" "USER" "SOURCES;LINK" ${ARGN})

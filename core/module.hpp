@@ -36,7 +36,6 @@ inline constinit Module colour_module{"lobelia_colour.so", "colour module"};
 inline constinit Module embree_module{"lobelia_embree.so", "Embree's module"};
 inline constinit Module glpk_module{"lobelia_glpk.so", "GLPK's module"};
 inline constinit Module png_module{"lobelia_png.so", "PNG module"};
-inline constinit Module zip_module{"lobelia_zip.so", "ZIP module"};
 
 class ModuleAddress {
  public:

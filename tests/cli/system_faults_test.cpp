@@ -52,7 +52,7 @@ TEST_F(SystemFaults, AreSaidInOneLineWithThePath) {
             "a.exr: cannot read: Input/output error"},
            {"getcwd", EIO, "", "farm grid.xml -q -o farm",
             "grid.xml: cannot tell where it is: Input/output error"},
-           {"readdir", EIO, "", "gallery publish run -o site.zip",
+           {"readdir", EIO, "", "gallery publish run -o site.html",
             "cannot be listed: Input/output error"},
            {"poll", EIO, "", "compare a.png a.png", "poll: Input/output error"},
            // The reader was waited for without end.

@@ -58,7 +58,6 @@ def cases():
         Case("gallery", gallery + ["site"], ["site"], [["gallery", "before", "-o", "site"]]),
         Case("gallery publish", publish + ["public"], ["public"]),
         Case("gallery publish", publish + ["public"], ["public"], [["gallery", "publish", "before", "-o", "public"]]),
-        Case("gallery publish", publish + ["public.zip"], ["public.zip"]),
         Case("gallery publish", publish + ["page.html"], ["page.html"], [["gallery", "publish", "before", "-o", "page.html"]]),
     ]
 

@@ -68,36 +68,6 @@ std::string unfolded(const std::string& text) {
   return all;
 }
 
-std::uint64_t number_at(std::string_view bytes, std::size_t at, int count) {
-  std::uint64_t number = 0;
-  while (count-- > 0) number = number << 8 | static_cast<unsigned char>(bytes[at + count]);
-  return number;
-}
-
-/// The files below `folder` of a zip, by its list at the end.
-std::map<std::string, std::string> unzipped(std::string_view zip,
-                                            std::string_view folder = "site/") {
-  std::map<std::string, std::string> files;
-  const std::size_t end = zip.rfind("PK\x05\x06");
-  std::size_t at = number_at(zip, end + 16, 4);
-  for (auto count = number_at(zip, end + 10, 2); count > 0; --count) {
-    EXPECT_EQ(zip.substr(at, 4), "PK\x01\x02");
-    const auto size = number_at(zip, at + 28, 2), packed = number_at(zip, at + 20, 4);
-    const std::string name(zip.substr(at + 46, size));
-    const std::size_t local = number_at(zip, at + 42, 4);
-    EXPECT_EQ(zip.substr(local + 30, size), name);
-    const std::string_view bytes = zip.substr(local + 30 + size, packed);
-    const bool is_stored = number_at(zip, at + 10, 2) == 0;
-    std::string text = is_stored ? std::string(bytes) : inflated(bytes, -MAX_WBITS);
-    EXPECT_EQ(number_at(zip, at + 16, 4),
-              ::crc32(0, reinterpret_cast<const Bytef*>(text.data()), uInt(text.size())));
-    EXPECT_TRUE(name.starts_with(folder)) << name;
-    files[name.substr(folder.size())] = std::move(text);
-    at += 46 + size;
-  }
-  return files;
-}
-
 /// A run that tells of its machine wherever a record or a log can.
 class TelltaleFarm : public FakeFarm {
  public:
@@ -146,16 +116,10 @@ TEST(Publication, tells_nothing_of_the_machine_in_any_file_of_any_form) {
   const TemporaryDirectory place;
   const auto before = files_below(farm.directory());
   for (const bool packed : {false, true})
-    for (const char* out : {"site", "site.zip", "site.html"}) {
+    for (const char* out : {"site", "site.html"}) {
       GalleryOptions options = farm.options(place.path() / (packed ? "packed" : "whole") / out);
       options.metrics_only = options.packed.emplace(packed);
       const PublishedGallery made = write_publication(farm.directory(), options);
-      if (fs::path(out).extension() == ".zip") {
-        const fs::path folder = options.site.parent_path() / "site";
-        const auto files = unzipped(content(made.index));
-        require_nothing_told(files, farm);
-        EXPECT_EQ(files, files_below(folder)) << "the folder's files";
-      }
       EXPECT_TRUE(made.doubts.empty()) << made.doubts[0];
     }
   require_nothing_told(files_below(place.path()), farm);
@@ -235,16 +199,27 @@ TEST(Publication, names_style_and_script_by_content_and_removes_the_old_ones) {
 TEST(Publication, is_the_same_bytes_for_the_same_run) {
   const FakeFarm farm;
   const TemporaryDirectory place;
-  for (const char* ending : {".zip", ".html"}) {
-    GalleryOptions options;
-    std::vector<std::string> bytes;
-    for (const char* folder : {"a", "b"}) {
-      options.site = place.path() / folder / (std::string("site") + ending);
-      write_publication(farm.directory(), options);
-      bytes.push_back(content(options.site));
-    }
-    EXPECT_EQ(bytes[0], bytes[1]) << ending;
-    write_publication(farm.directory(), options);  // its own may be replaced
+  GalleryOptions options;
+  std::vector<std::string> bytes;
+  for (const char* folder : {"a", "b"}) {
+    options.site = place.path() / folder / "site.html";
+    write_publication(farm.directory(), options);
+    bytes.push_back(content(options.site));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+  write_publication(farm.directory(), options);  // its own may be replaced
+}
+
+TEST(Publication, says_what_writes_a_zip) {
+  const FakeFarm farm;
+  GalleryOptions options;
+  options.site = "site.ZIP";
+  try {
+    write_publication(farm.directory(), options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("zip -r site.ZIP FOLDER"));
   }
 }
 
@@ -253,7 +228,7 @@ TEST(Publication, refuses_what_is_not_its_own) {
   const TemporaryDirectory place;
   const fs::path foreign = place.path() / "foreign";
   fs::create_directories(foreign);
-  for (const char* name : {"foreign/file", "a.zip", "a.html"})
+  for (const char* name : {"foreign/file", "a.html"})
     write_file(place.path() / name, std::string_view("mine"));
   // Photographs have such a list, too; and pictures that were compared have one of ours.
   for (const char* name : {"photos", "report"}) fs::create_directories(place.path() / name);
@@ -261,12 +236,12 @@ TEST(Publication, refuses_what_is_not_its_own) {
   records::write_record(place.path() / "report/gallery.json",
                         records::GalleryList{{"comparison.json", "index.html"}, {}});
   fs::create_symlink(foreign, place.path() / "link");
-  fs::create_directory(place.path() / "folder.zip");
+  fs::create_directory(place.path() / "folder.html");
   for (const fs::path& out :
-       {foreign, place.path() / "link", place.path() / "a.zip", place.path() / "a.html",
-        place.path() / "folder.zip", place.path() / "photos", place.path() / "report",
-        farm.directory(), farm.directory() / "cells", farm.directory() / "site",
-        farm.directory() / "site.zip", farm.directory() / "cells/new.html"}) {
+       {foreign, place.path() / "link", place.path() / "a.html", place.path() / "folder.html",
+        place.path() / "photos", place.path() / "report", farm.directory(),
+        farm.directory() / "cells", farm.directory() / "site", farm.directory() / "site.html",
+        farm.directory() / "cells/new.html"}) {
     GalleryOptions options;
     options.site = out;
     try {
@@ -276,9 +251,9 @@ TEST(Publication, refuses_what_is_not_its_own) {
       EXPECT_EQ(error.code(), ExitCode::kOutput) << out;
     }
   }
-  EXPECT_EQ(content(place.path() / "a.zip"), "mine");
+  EXPECT_EQ(content(place.path() / "a.html"), "mine");
   EXPECT_EQ(content(place.path() / "photos/gallery.json"), R"({"photos":[]})");
-  for (const char* name : {"index.html", "site", "site.zip", "cells/new.html"})
+  for (const char* name : {"index.html", "site", "site.html", "cells/new.html"})
     EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
 }
 
@@ -336,20 +311,6 @@ TEST(Publication, a_killed_one_leaves_no_key_of_a_file_that_it_made_anew) {
   EXPECT_EQ(content(place.path() / "site/derived"), "one");
 }
 
-TEST(Publication, in_a_zip_has_plain_names_whatever_the_zip_is_called) {
-  const FakeFarm farm;
-  const TemporaryDirectory place;
-  for (const char* name : {"...zip", "a\\..\\b.zip", "x\xff.zip"}) {
-    GalleryOptions options;
-    options.site = place.path() / name;
-    options.metrics_only = true;
-    write_publication(farm.directory(), options);
-    const auto files = unzipped(content(place.path() / name), "gallery/");
-    EXPECT_TRUE(files.contains("index.html")) << name;
-    for (const auto& [file, text] : files) EXPECT_EQ(file.find(".."), file.npos) << name;
-  }
-}
-
 TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behind) {
   const FakeFarm farm;
   const TemporaryDirectory place, elsewhere;
@@ -358,7 +319,7 @@ TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behi
   write_file(elsewhere.path() / "secret", std::string_view("secret"));
   fs::create_symlink(elsewhere.path() / "secret", log);
   farm.seal(FakeFarm::kPass);
-  for (const char* out : {"site", "site.zip", "site.html"}) {
+  for (const char* out : {"site", "site.html"}) {
     GalleryOptions options;
     options.site = place.path() / out;
     options.scrubbed = true;
