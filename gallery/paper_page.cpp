@@ -197,9 +197,7 @@ std::string finding_of(const PaperFigure& figure, const std::vector<Claim>& clai
   return finding.empty() ? "" : "Claims shown here: " + finding + ".";
 }
 
-void write_figure(ViewPage& page, const std::filesystem::path& run, const PaperFigure& figure,
-                  const std::string& file, const std::vector<Claim>& claims) {
-  Html& html = page.main;
+void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim>& claims) {
   const Tag element(
       html, "figure",
       {{"class", "chart-figure"}, {"id", figure.id + "-figure"}, {"data-chart", figure.id}});
@@ -207,7 +205,6 @@ void write_figure(ViewPage& page, const std::filesystem::path& run, const PaperF
   if (const std::string finding = finding_of(figure, claims); !finding.empty())
     html.element("p", {{"class", "finding"}}, finding);
   html.raw(draw_chart(chart_of(figure)));
-  write_study_chart(page, run, {"paper", file});
   const Tag caption(html, "figcaption");
   html.text(figure.description);
   std::vector<std::pair<std::string, std::string>> links;
@@ -216,14 +213,7 @@ void write_figure(ViewPage& page, const std::filesystem::path& run, const PaperF
   write_links(html, "Shows: ", links);
 }
 
-/// The file that "lobelia verify paper --plots" writes.
-std::string file_of(const PaperFigure& figure) {
-  std::string name = figure.id;
-  std::ranges::replace(name, '-', '_');
-  return name + ".svg";
-}
-
-void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& record) {
+void draw(ViewPage& page, const VerifyPaper& record) {
   const std::vector<Claim>& claims = record.claims;
   records::PaperPage data;
   for (const PaperFigure& figure : record.figures)
@@ -243,8 +233,7 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& r
     if (data.charts.empty())
       write_absence(html, "The record has none: 'lobelia verify paper --plots' draws them.");
     const Tag grid(html, "div", {{"class", "figure-grid"}});
-    for (std::size_t i = 0; i < data.charts.size(); ++i)
-      write_figure(page, run, data.charts[i], file_of(record.figures[i]), claims);
+    for (const PaperFigure& figure : data.charts) write_figure(html, figure, claims);
   }
   {
     const Tag section(html, "section", {{"class", "claims"}});
@@ -262,9 +251,7 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& r
 }
 
 std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<VerifyPaper>(
-      run, kRecord, kTitle,
-      [&](ViewPage& page, const VerifyPaper& record) { draw(page, run, record); });
+  return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace
