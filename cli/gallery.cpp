@@ -77,8 +77,8 @@ void add_publish(CLI::App& gallery, ExitCode& exit_code) {
   limits->add_to(group);
   command->footer(fmt::format(
       "Writes what 'lobelia gallery' does, and prints its path. A folder has .nojekyll, and its script and\n"
-      "style are named by their content. Absolute paths become their last part; names of hosts and users, and\n"
-      "process IDs, are left out. Every hash in a cell.json is of the published file. RUN is not changed.\n"
+      "style are named by their content. Absolute paths become their file's name. Texts with names of hosts or\n"
+      "users, process IDs or other paths are left out. Every hash in a cell.json is of the published file. RUN is not changed.\n"
       "OUT gets its name when it is whole; in a folder that was published before, each file does.\n\n"
       "One HTML file holds up to {} cells and {} MiB, and has no pages of studies and no files to download.\n\n"
       "Exit codes: 0 published, 1 published, but some cell is not what the farm wrote or is worse than in the\n"

@@ -109,7 +109,7 @@ std::vector<CellSummary> publish_packed_cells(const fs::path& run, const Gallery
     for (std::size_t place = number * kCellsOfChunk; place < end; ++place) {
       throw_if_interrupted();
       const CellEntry& entry = farm.cells[order[place]];
-      CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.scrub.get());
+      CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.texts.get());
       ShrunkPictures pictures = shrink_pictures(run, options.surface, cell);
       thumbnails.push_back(std::move(pictures.thumbnail));
       CellSummary& summary = summaries[order[place]] = publish_with_history(

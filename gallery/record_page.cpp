@@ -1,6 +1,6 @@
 #include "core/text.hpp"
 #include "gallery/page.hpp"
-#include "gallery/page_text.hpp"
+#include "gallery/published_texts.hpp"
 #include "gallery/views.hpp"
 
 namespace lobelia::gallery {

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/html.hpp"
-#include "gallery/scrub.hpp"
+#include "gallery/published_texts.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -44,7 +44,7 @@ std::optional<ViewPage> record_page(const RunFiles& run, const char* file, const
   if (file_type_at(run / file) == std::filesystem::file_type::not_found) return std::nullopt;
   try {
     records::Origin origin;
-    const T record = read_scrubbed<T>(run / file, run.scrub, file, &origin);
+    const T record = read_published<T>(run / file, run.texts, file, &origin);
     ViewPage page{title, origin.made_by, {}, "", {file}};
     draw(page, record);
     return page;

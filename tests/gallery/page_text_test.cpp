@@ -37,13 +37,6 @@ TEST(PageText, EndsWhateverIsNested) {
   EXPECT_GE(math_text(std::string(5000, '9') + " s").size(), 1u);
 }
 
-TEST(PageText, HasNoPathOfTheMachine) {
-  EXPECT_EQ(without_paths("lobelia cost /srv/a/oblique_45.xml -o '/tmp/w/gal/cost' -q"),
-            "lobelia cost oblique_45.xml -o 'cost' -q");
-  EXPECT_EQ(without_paths("--out=/a/b/c.exr scenes/x.xml 1/2 https://a.org/b"),
-            "--out=c.exr scenes/x.xml 1/2 https://a.org/b");
-}
-
 TEST(DataScript, IsOneTextOfJavaScriptWhateverTheDataHold) {
   EXPECT_EQ(data_script("a", R"({"x":"it's \n"})"), R"(lobelia('a','{"x":"it\'s \\n"}');)"
                                                     "\n");

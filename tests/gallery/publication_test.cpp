@@ -14,8 +14,8 @@
 #include "core/error.hpp"
 #include "core/sha256.hpp"
 #include "gallery/checked_cell.hpp"
+#include "gallery/published_texts.hpp"
 #include "gallery/publisher.hpp"
-#include "gallery/scrub.hpp"
 #include "records/cost.hpp"
 #include "records/render.hpp"
 #include "tests/gallery/fake_farm.hpp"
@@ -84,7 +84,7 @@ class TelltaleFarm : public FakeFarm {
     write_file(cell_directory(kPass) / "povray.log",
                "$ /opt/telltale/bin/povray -I/opt/telltale/include\nSaved: \"" + kPlace +
                    "/a b.exr\" by " + kUser + "@" + kHost + " (pid 4711)\nfile://" +
-                   directory().string() + "/x.pov: ok, see https://povray.org/a/b\n");
+                   directory().string() + "/x.pov: ok\nsee https://povray.org/a/b\n");
     seal(kPass);
     change<records::Cell>(kFailed, "cell.json", [](records::Cell& cell) {
       cell.problems.push_back(
@@ -126,9 +126,8 @@ TEST(Publication, tells_nothing_of_the_machine_in_any_file_of_any_form) {
   EXPECT_EQ(files_below(farm.directory()), before) << "RUN is not changed";
   const std::string log =
       content(place.path() / "whole/site/cells" / FakeFarm::kPass / "povray.log");
-  EXPECT_THAT(log, HasSubstr("$ povray "));
-  EXPECT_THAT(log, HasSubstr("Saved: \"a b.exr\" by "));
-  EXPECT_THAT(log, HasSubstr("https://povray.org/a/b"));
+  EXPECT_THAT(log, HasSubstr(kLeftOut));
+  EXPECT_THAT(log, HasSubstr("see https://povray.org/a/b"));
 }
 
 TEST(Publication, has_hashes_of_what_it_publishes_and_seals_that_fit) {
@@ -365,66 +364,113 @@ TEST(Publication, in_one_file_is_small_or_one_cell) {
   }
 }
 
-TEST(Scrub, shortens_paths_and_leaves_what_is_none) {
-  const Scrub scrub({"/data/my runs/one", "/scenes"}, {"node7.example.org"}, {"ada"});
+TEST(PublishedTexts, show_the_names_of_files_in_place_of_paths) {
   for (const auto& [text, shown] : std::vector<std::pair<std::string, std::string>>{
-           {"lobelia cost /srv/a/b.xml -o '/x y/cost' -q", "lobelia cost b.xml -o 'cost' -q"},
-           {"/data/my runs/one/cells/c.exr and /data/my runs/x.xml", "c.exr and x.xml"},
-           {"PATH=/usr/bin:/srv/u/bin", "PATH=bin:bin"},
-           {"-I/usr/include/x", "-Ix"},
-           {"file:///srv/u/a.xml", "file:a.xml"},
-           {"https://a.org/b/c", "https://a.org/b/c"},
-           {"</transform><a href=\"x/y/z\">", "</transform><a href=\"x/y/z\">"},
-           {"// a comment /* and */ 1/2 N.L/(a/b) m/s", "// a comment /* and */ 1/2 N.L/(a/b) m/s"},
-           {"../scenes/oblique_45.xml", "../scenes/oblique_45.xml"},
-           {"reference/data/x.png and W/data", "reference/data/x.png and W/data"},
-           {"cannot open /srv/u/x.", "cannot open x."},
-           {"-o /"
-            "Users/ada --blender ~ada/b/c, ~3 ms",
-            "-o ~ --blender c, ~3 ms"},
-           {"//srv/S/x +I/srv/S/a -isystem/srv/S/b \x1b[31m/srv/S/c", "x +Ia -isystemb \x1b[31mc"},
-           {"\"a\\n/srv/S/x\" …/srv/S/y →/srv/S/z", "\"a\\nx\" …y →z"},
-           {"ssh://ada@node9/srv/S file://node9/srv/S/x", "ssh:S file:x"},
-           {"see https://a.org/x/y?z=/a/b.", "see https://a.org/x/y?z=/a/b."},
-           {"+/-3/4 and / or /", "+/-3/4 and / or /"}})
-    EXPECT_EQ(scrub.without_paths(text), shown);
-  EXPECT_EQ(scrub.log("ada@node7 and node7.example.org, Nevada, pid 12, pid namespace"),
-            "user@host and host, Nevada, pid, pid namespace");
-  EXPECT_EQ(scrub.log("povray[4711]: PIDs 4711, ppid=3; process 2.5 GB, process 3 of 4, sphere[2]"),
-            "povray: PIDs, ppid; process 2.5 GB, process 3 of 4, sphere[2]");
+           {"lobelia cost /srv/a/b.xml -o '/x y/a b/cost' -q", "lobelia cost b.xml -o 'cost' -q"},
+           {"/opt/x/bin/povray +I'/srv/a b/c.pov' -I/usr/include/x", "povray +I'c.pov' -Ix"},
+           {"--out=/a/b/c.exr scenes/x.xml 1/2 https://a.org/b",
+            "--out=c.exr scenes/x.xml 1/2 https://a.org/b"},
+           {"-o /home/ada --cache /data/", "-o … --cache /data"}})
+    EXPECT_EQ(without_paths(text), shown);
 }
 
-TEST(Scrub, leaves_who_ran_it_and_where_out_of_records) {
-  const std::string shown = Scrub({}).record(
+TEST(PublishedTexts, know_a_text_that_tells_a_path) {
+  for (const char* text : {"cannot open /srv/u/x.",
+                           "/srv/a b/c",
+                           "PATH=/usr/bin:/srv/u/bin",
+                           "a:/srv/u/bin",
+                           "file:///srv/u/a.xml",
+                           "-I/usr/include/x",
+                           "+I/srv/S/a",
+                           "-isystem/srv/S/b",
+                           "//srv/S/x",
+                           "\x1b[31m/srv/S/c",
+                           "\"a\\n/srv/S/x\"",
+                           "…/srv/y",
+                           "→/srv/z",
+                           "ssh://ada@node9/srv",
+                           "file://node9/srv/S/x",
+                           "/données/x",
+                           "--blender ~ada/b",
+                           "see ~/x",
+                           "ada@node7",
+                           "https://a.org/b and /srv/x",
+                           "{/srv/x",
+                           "see ,/srv/x"})
+    EXPECT_TRUE(tells_path(text)) << text;
+  for (const char* text :
+       {"https://a.org/b/c", "see https://a.org/x/y?z=/a/b.", "</transform><a href=\"x/y/z\"/>",
+        "// a comment /* and */ 1/2 N.L/(a/b) m/s", "../scenes/oblique_45.xml", "W/data",
+        "+/-3/4 and / or /", "(1 - s)^n/(n + 1), |a - b|/b, n s/(2 pi), 2^(-n/2) + n", "~3 ms", "@param"})
+    EXPECT_FALSE(tells_path(text)) << text;
+}
+
+TEST(PublishedTexts, leave_out_lines_that_tell_of_the_machine) {
+  const PublishedTexts texts({"node7.example.org"}, {"ada"});
+  const std::string log =
+      "by ada\non node7\npid 12\nppid=3\npovray[4711]: x\nin /srv/a/b\n"
+      "Nevada\npid namespace\nprocess 2.5 GB\nprocess 3 of 4, sphere[2]\nlast";
+  std::string shown;
+  for (int i = 0; i < 6; ++i) shown += std::string(kLeftOut) + "\n";
+  EXPECT_EQ(texts.lines(log), shown + log.substr(log.find("Nevada")));
+}
+
+TEST(PublishedTexts, leave_out_who_ran_it_and_where) {
+  const std::string shown = PublishedTexts().record(
       R"({"user": "ada", "pid": "4711", "host": {"name": "node7", "cores": "8"}})");
   for (const char* telling : {"ada", "4711", "node7"}) EXPECT_THAT(shown, Not(HasSubstr(telling)));
   EXPECT_THAT(shown, HasSubstr("cores"));
 }
 
-TEST(Scrub, keeps_values_of_an_axis_apart_and_a_broken_seal_broken) {
-  Scrub scrub({});
-  records::Axis axis{
-      "scene",
-      {{"/a/x.xml", ""}, {"/b/x.xml", ""}, {"x.xml", ""}, {"s /c/y.xml", ""}, {"s /d/y.xml", ""}}};
-  scrub.keep_apart({axis});
+/// A home directory in place of each text, whatever its key.
+TEST(PublishedTexts, have_no_home_in_any_text_of_a_record) {
+  const TelltaleFarm farm;
+  const std::string homes[] = {"/home/ada", "'/home/ada lovelace/x.exr'", "~ada/x",
+                               "see /home/ada/x y/z", "file:///home/ada/x"};
+  int planted = 0;
+  for (const auto& [name, content] : files_below(farm.directory())) {
+    if (!name.ends_with(".json")) continue;
+    for (const std::string& home : homes) {
+      const auto told = records::with_texts(content, [&](auto, const std::string&) {
+        ++planted;
+        return std::optional(home);
+      });
+      ASSERT_TRUE(told) << name;
+      const std::string shown = PublishedTexts().record(*told);
+      for (const char* telling : {"ada", "lovelace", "/home"})
+        EXPECT_THAT(shown, Not(HasSubstr(telling))) << name << ": " << home;
+    }
+  }
+  EXPECT_GT(planted, 200);
+}
+
+TEST(PublishedTexts, keep_values_of_an_axis_apart_and_a_broken_seal_broken) {
+  PublishedTexts texts;
+  records::Axis axis{"scene",
+                     {{"/a/p/x.xml", ""},
+                      {"/b/p/x.xml", ""},
+                      {"x.xml", ""},
+                      {"s /c/p/y.xml", ""},
+                      {"s /d/p/y.xml", ""}}};
+  texts.keep_apart({axis});
   records::Farm farm;
   farm.axes = {axis};
-  const std::string record = scrub.record(records::record_text(farm));
+  const std::string record = texts.record(records::record_text(farm));
   EXPECT_THAT(record, HasSubstr("\"x.xml 2\""));
   EXPECT_THAT(record, HasSubstr("\"x.xml 3\""));
   EXPECT_THAT(record, HasSubstr("\"s y.xml 2\""));
   records::Cell cell;
   cell.id = "a";
   cell.status = "pass";
-  cell.axes = {{"scene", "/c/y.xml"}};
+  cell.axes = {{"scene", "/a/p/x.xml"}};
   std::string text = records::record_text(cell);
   records::Origin origin;
-  EXPECT_THAT(scrub.record(text), HasSubstr("\"y.xml\""));
-  records::parse_record<records::Cell>(scrub.record(text), "", &origin);
+  EXPECT_THAT(texts.record(text), HasSubstr("\"x.xml 2\""));
+  records::parse_record<records::Cell>(texts.record(text), "", &origin);
   EXPECT_EQ(origin.seal, records::Origin::Seal::kFits);
   text.replace(text.find("pass"), 4, "diff");
-  EXPECT_THROW(records::parse_record<records::Cell>(scrub.record(text), ""), Error);
-  EXPECT_EQ(scrub.record("[[["), "[[[");
+  EXPECT_THROW(records::parse_record<records::Cell>(texts.record(text), ""), Error);
+  EXPECT_EQ(texts.record("[[["), "[[[");
 }
 
 }  // namespace
