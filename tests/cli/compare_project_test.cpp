@@ -2,7 +2,6 @@
 #include <fmt/chrono.h>
 
 #include <ctime>
-#include <filesystem>
 #include <random>
 
 #include "tests/cli/compare_pictures_fixture.hpp"
@@ -13,7 +12,6 @@ namespace {
 using namespace fixtures;
 using ::testing::HasSubstr;
 using ::testing::Not;
-namespace fs = std::filesystem;
 
 class CompareProject : public ComparePictures {
  protected:
