@@ -144,8 +144,10 @@ ifeq ($(TIDY),yes)
 endif
 
 docs: ## writes docs/ as a site to out/docs, with a search; no network is needed to read it
-	$(setup) docs
-	@scripts/docs out/docs
+	$(setup) build docs
+	$(configure)
+	$(build) --target lobelia
+	@LOBELIA_PROGRAM="build/$(PRESET)/bin/lobelia" scripts/docs out/docs
 
 install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
 	$(setup) build

@@ -106,7 +106,7 @@ constinit const SceneFormat kJsonFormat{
     "json",
     "JSON",
     "scene.json",
-    "a flat record of numbers (docs/reference/scene.md): axes of the camera, coefficients, lights with their units",
+    "a flat record of numbers (lobelia records scene): axes of the camera, coefficients, lights with their units",
     why_not_spelled_out,
     [](const Scene& scene) {
       return std::map<std::string, std::string>{{"scene.json", record_text(scene_record(scene))}};
