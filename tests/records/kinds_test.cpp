@@ -228,8 +228,8 @@ TEST_P(EveryKind, SurvivesBytesAtRandom) {
 /// The only kind that people write, so an editor fetches its schema from the source.
 TEST(Kinds, HaveTheSchemaOfAProjectInTheSource) {
   const std::string file = LOBELIA_SOURCE_DIR "/docs/reference/project.schema.json";
-  const auto project =
-      std::ranges::find(kinds(), "project", [](const Kind& kind) { return kind.type().kind(); });
+  const auto project = std::ranges::find_if(
+      kinds(), [](const Kind& kind) { return kind.type().kind() == "project"; });
   ASSERT_NE(project, kinds().end());
   EXPECT_EQ(read_file(file, 1 << 20), schema_text(*project))
       << "run: lobelia records project > docs/reference/project.schema.json";
