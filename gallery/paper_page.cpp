@@ -9,7 +9,7 @@
 #include "gallery/page.hpp"
 #include "gallery/page_text.hpp"
 #include "gallery/views.hpp"
-#include "records/pages.hpp"
+#include "records/paper.hpp"
 
 namespace lobelia::gallery::paper_page {
 namespace {
@@ -198,9 +198,7 @@ std::string finding_of(const PaperFigure& figure, const std::vector<Claim>& clai
 }
 
 void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim>& claims) {
-  const Tag element(
-      html, "figure",
-      {{"class", "chart-figure"}, {"id", figure.id + "-figure"}, {"data-chart", figure.id}});
+  const Tag element(html, "figure", {{"class", "chart-figure"}, {"id", figure.id + "-figure"}});
   html.element("h3", figure.title);
   if (const std::string finding = finding_of(figure, claims); !finding.empty())
     html.element("p", {{"class", "finding"}}, finding);
@@ -215,10 +213,9 @@ void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim
 
 void draw(ViewPage& page, const VerifyPaper& record) {
   const std::vector<Claim>& claims = record.claims;
-  records::PaperPage data;
+  std::vector<PaperFigure> figures;
   for (const PaperFigure& figure : record.figures)
-    data.charts.push_back(drawable(figure, data.charts.size() + 1));
-  page.data = records::record_line(data);
+    figures.push_back(drawable(figure, figures.size() + 1));
 
   Html& html = page.main;
   write_lead(
@@ -230,17 +227,17 @@ void draw(ViewPage& page, const VerifyPaper& record) {
   {
     const Tag section(html, "section", {{"class", "figures-section"}});
     html.element("h2", "The curves behind the claims");
-    if (data.charts.empty())
+    if (figures.empty())
       write_absence(html, "The record has none: 'lobelia verify paper --plots' draws them.");
     const Tag grid(html, "div", {{"class", "figure-grid"}});
-    for (const PaperFigure& figure : data.charts) write_figure(html, figure, claims);
+    for (const PaperFigure& figure : figures) write_figure(html, figure, claims);
   }
   {
     const Tag section(html, "section", {{"class", "claims"}});
     html.element("h2", "Claim by claim");
     const Tag grid(html, "div", {{"class", "claim-grid"}});
     for (const Claim& claim : claims)
-      write_claim(html, claim, id_of(claim, claims), data.charts, claims);
+      write_claim(html, claim, id_of(claim, claims), figures, claims);
   }
   write_source(html, shell_join(record.command), kRecord);
   page.finding = fmt::format("Of the paper’s claims, {} hold and {} could not be reproduced.",

@@ -173,8 +173,7 @@ std::string typescript_text() {
        {&struct_type<GridPage>(), &struct_type<GridColumns>(), &struct_type<CellPage>(),
         &struct_type<PackedPicture>(), &struct_type<PixelRuns>(), &struct_type<InlinedPage>(),
         &struct_type<CellIndex>(), &struct_type<CellChunk>(), &struct_type<CellTexts>(),
-        &struct_type<Thumbnails>(), &struct_type<StabilityPage>(), &struct_type<PaperPage>(),
-        &struct_type<ExplorerPage>()})
+        &struct_type<Thumbnails>(), &struct_type<ExplorerPage>()})
     definitions.add(*page);
   std::string text =
       "// What the program gives the pages' scripts. Written by `lobelia records --typescript > "

@@ -111,15 +111,9 @@ void define_page_tables(Tables& tables) {
     t.key("ways", "as in PackedShown");
     t.key("pixels", "all pictures as gallery/packed_pixels.hpp has them; base64, deflated");
   });
-  tables.define<StabilitySummary>("The largest errors of a lobe: of the peak, and in ulp.",
-                                  [](auto& t) {
-                                    t.keys({"naive", "ours"}).may_be_nonfinite();
-                                  });
-  tables.define<StabilityPage>("The page of the hard cases.");
   tables.define<InlinedPage>("A page of a report in one file.", [](auto& t) {
     t.key("main", "markup of its <main>").most_text(std::size_t{1} << 26);
   });
-  tables.define<PaperPage>("The page of the paper's claims.");
 }
 
 }  // namespace lobelia::records

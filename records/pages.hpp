@@ -2,8 +2,6 @@
 #pragma once
 
 #include "records/models.hpp"
-#include "records/paper.hpp"
-#include "records/stability.hpp"
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {
@@ -168,21 +166,6 @@ struct CellIndex {
 struct Thumbnails {
   std::vector<int> widths, heights, ways;
   std::string pixels;
-};
-
-struct StabilitySummary {
-  std::string group, lobe;
-  double exponent = 0;
-  std::array<double, 2> naive{}, ours{};
-};
-
-struct StabilityPage {
-  std::vector<StabilitySummary> summaries;
-  std::vector<StabilityCurve> curves;
-};
-
-struct PaperPage {
-  std::vector<PaperFigure> charts;
 };
 
 /// A page of a report in one file.

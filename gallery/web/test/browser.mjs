@@ -57,7 +57,7 @@ export async function open(browser, url, options = {}) {
   context.setDefaultTimeout(kHang);
   const page = await context.newPage();
   const problems = [];
-  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text())) problems.push(message.text()); });
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader|willReadFrequently/i.test(message.text())) problems.push(message.text()); });
   page.on('pageerror', (error) => problems.push(String(error)));
   page.on('dialog', (dialog) => { problems.push('dialog ' + dialog.message()); void dialog.dismiss(); });
   page.requested = new Set();
@@ -119,10 +119,7 @@ export const ready = (page, count = 2) => page.waitForFunction((n) => Number(doc
 export async function seenAt(page, shareX, shareY) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return page.evaluate(([x, y]) => {
-    const canvas = document.querySelector('.stage canvas'), gl = canvas.getContext('webgl2');
-    if (!gl) return [...canvas.getContext('2d').getImageData(Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data.subarray(0, 3)];
-    const pixel = new Uint8Array(4);
-    gl.readPixels(Math.floor(x * canvas.width), Math.floor((1 - y) * canvas.height), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-    return [...pixel.subarray(0, 3)];
+    const canvas = document.querySelector('.stage canvas');
+    return [...canvas.getContext('2d').getImageData(Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data.subarray(0, 3)];
   }, [shareX, shareY]);
 }

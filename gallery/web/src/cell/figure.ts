@@ -12,7 +12,7 @@ const grey = (v: number): string => `rgb(${[0, 0, 0].map(() => Math.round(255 * 
 const encoded = (v: number): number => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
-/** The colour of a signed difference, as gl_painter.ts paints it. */
+/** The colour of a signed difference, as float_painter.ts paints it. */
 function signedColour(share: number): string {
   const mean = 2 * share - 1, strength = Math.sqrt(Math.abs(mean)), end = mean > 0 ? [1, 0.45, 0.2] : [0.3, 0.65, 1];
   return `rgb(${end.map((c) => Math.round(255 * (0.06 * (1 - strength) + c * strength))).join(' ')})`;

@@ -7,11 +7,10 @@ import { clamp, numberText } from '../lib/numbers';
 import type { CellPage } from '../records';
 import { Camera } from './camera';
 import { Choice, kMeasures, kModes, kMostGain, kStops, type LinkState } from './choice';
-import { CpuPainter } from './cpu_painter';
 import { figureOf } from './figure';
 import { Flipper } from './flipper';
+import { FloatPainter } from './float_painter';
 import { FloatPictures } from './float_pictures';
-import { GlPainter } from './gl_painter';
 import { legendOf } from './legend';
 import { Histogram } from './histogram';
 import { LineBox } from './line_box';
@@ -200,30 +199,12 @@ export class Viewer implements Controls {
     const ours = this.pictures.all.get(0);
     if (!ours) return;
     if (!this.state.isFloat) {
-      const { canvas, painter } = this.floatPainter();
-      this.painter = painter;
-      this.canvas.replaceWith(canvas);
-      Object.assign(this, { canvas });
+      this.painter = new FloatPainter(this.canvas, this.pictures.all);
       this.state.isFloat = true;
       this.camera.size = ours;
       this.camera.home = this.pictures.highlight();
     }
     this.stage.dataset['ready'] = String(this.pictures.all.size);
-  }
-
-  private floatPainter(): { canvas: HTMLCanvasElement; painter: Painter } {
-    const canvas = h('canvas', { 'aria-hidden': 'true' });
-    const gl = canvas.getContext('webgl2', { antialias: false, depth: false, preserveDrawingBuffer: true });
-    if (gl) {
-      try {
-        return { canvas, painter: new GlPainter(canvas, gl, this.pictures.all) };
-      } catch {
-        // The message below says so.
-      }
-    }
-    this.tell('Painted by the processor, because this browser has no WebGL 2.');
-    const plain = h('canvas', { 'aria-hidden': 'true' });
-    return { canvas: plain, painter: new CpuPainter(plain, this.pictures.all) };
   }
 
   private tell(words: string): void { this.message.textContent = words; }

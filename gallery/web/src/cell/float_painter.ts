@@ -1,14 +1,16 @@
-// Paints float pictures where there is no WebGL 2, in the colours of gl_painter.ts.
+// Paints float pictures: each once, in its own size; the browser enlarges it.
+import { h } from '../lib/dom';
 import { clamp } from '../lib/numbers';
 import { kColours, kStopCount, stopsOf } from './colours';
 import type { FloatPicture } from './half_picture';
-import type { Content, Look, Painter, Pane } from './painter';
+import { drawPanes, type Content, type Look, type Painter, type Pane } from './painter';
 
 type Rgb = [number, number, number];
 /** Puts the colour of pixel (x, y) into `colour`, each from 0 to 255. */
 type Shader = (x: number, y: number, colour: Rgb) => void;
 
 const kSteps = 1 << 14, kRampSteps = 1023;
+const kMostKept = 4;  // painted pictures: two, and those that they are flipped with
 
 /** sRGB of linear values from 0 to 1. */
 const encodedOf = (): Float32Array => Float32Array.from({ length: kSteps + 1 }, (_, i) => {
@@ -31,26 +33,48 @@ function put(colour: Rgb, r: number, g: number, b: number): void {
   colour[2] = b;
 }
 
-export class CpuPainter implements Painter {
+/** Whether both have the same members. */
+function isSame(p: object, q: object): boolean {
+  const members = Object.entries(p);
+  return members.length === Object.keys(q).length && members.every(([key, value]) => (q as Record<string, unknown>)[key] === value);
+}
+
+export class FloatPainter implements Painter {
   private readonly encoded = encodedOf();
+  private readonly kept: { readonly content: Content; readonly look: Look; readonly image: HTMLCanvasElement }[] = [];
 
   /** `pictures`: the loaded ones, by the engine's index. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly pictures: ReadonlyMap<number, FloatPicture>) {}
 
   paint(width: number, height: number, panes: readonly Pane[], look: Look): void {
-    if (this.canvas.width !== width) this.canvas.width = width;
-    if (this.canvas.height !== height) this.canvas.height = height;
-    const context = this.canvas.getContext('2d', { willReadFrequently: true }), ours = this.pictures.get(0);
-    if (!context) return;
-    context.fillStyle = 'rgb(33 33 36)';
-    context.fillRect(0, 0, width, height);
-    for (const pane of panes) {
-      const shader = this.shaderOf(pane.content, look), paneWidth = Math.round(pane.at.width), paneHeight = Math.round(pane.at.height);
-      if (!ours || !shader || paneWidth <= 0 || paneHeight <= 0) continue;
-      const image = new ImageData(paneWidth, paneHeight);
-      drawPane(image, pane.view, ours, shader);
-      context.putImageData(image, Math.round(pane.at.x), Math.round(pane.at.y));
-    }
+    const ours = this.pictures.get(0);
+    drawPanes(this.canvas, width, height, panes, (context, { at, view, content }) => {
+      const image = this.imageOf(content, look);
+      if (!ours || !image) return;
+      const block = content.kind === 'map' ? content.picture.block : 1;
+      context.imageSmoothingEnabled = false;
+      context.drawImage(image, 0, 0, ours.width / block, ours.height / block,
+        at.x - view.x * view.zoom, at.y - view.y * view.zoom, ours.width * view.zoom, ours.height * view.zoom);
+    });
+  }
+
+  /** As it was painted before, if it looks the same. */
+  private imageOf(content: Content, look: Look): HTMLCanvasElement | undefined {
+    const known = this.kept.find((one) => isSame(one.content, content) && isSame(one.look, look));
+    if (known) return known.image;
+    const shader = this.shaderOf(content, look), size = content.kind === 'map' ? content.picture : this.pictures.get(0);
+    if (!shader || !size) return undefined;
+    const image = h('canvas', { width: size.width, height: size.height }), data = new ImageData(size.width, size.height), colour: Rgb = [0, 0, 0];
+    for (let y = 0, at = 0; y < size.height; ++y)
+      for (let x = 0; x < size.width; ++x, at += 4) {
+        shader(x, y, colour);
+        data.data.set(colour, at);
+        data.data[at + 3] = 255;
+      }
+    image.getContext('2d')?.putImageData(data, 0, 0);
+    this.kept.unshift({ content, look, image });
+    this.kept.length = Math.min(this.kept.length, kMostKept);
+    return image;
   }
 
   private shaderOf(content: Content, look: Look): Shader | undefined {
@@ -64,7 +88,7 @@ export class CpuPainter implements Painter {
     if (content.kind === 'map') {
       const { picture, white } = content;
       return (x, y, colour) => {
-        const value = picture.values[3 * (Math.floor(y / picture.block) * picture.width + Math.floor(x / picture.block))]!;
+        const value = picture.values[3 * (y * picture.width + x)]!;
         if (!Number.isFinite(value)) put(colour, 255, 0, 255);
         else if (look.falseColour) coloured(value, colour);
         else ramped(value / white, colour);
@@ -101,32 +125,5 @@ export class CpuPainter implements Painter {
       if (look.falseColour) coloured(Math.max(r, g, bl) * look.top, colour);
       else put(colour, 255 * r, 255 * g, 255 * bl);
     };
-  }
-}
-
-/** Asks for each pixel of the picture once, however large it is shown. */
-function drawPane(image: ImageData, view: Pane['view'], { width, height }: FloatPicture, shader: Shader): void {
-  const { data } = image, row = 4 * image.width, colour: Rgb = [0, 0, 0];
-  let before = NaN;
-  for (let j = 0; j < image.height; ++j) {
-    const y = Math.floor((j + 0.5) / view.zoom + view.y);
-    if (y === before) {
-      data.copyWithin(j * row, (j - 1) * row, j * row);
-      continue;
-    }
-    before = y;
-    let left = NaN;
-    for (let i = 0, at = j * row; i < image.width; ++i, at += 4) {
-      const x = Math.floor((i + 0.5) / view.zoom + view.x);
-      if (x !== left) {
-        left = x;
-        if (x < 0 || y < 0 || x >= width || y >= height) put(colour, 33, 33, 36);
-        else shader(x, y, colour);
-      }
-      data[at] = colour[0];
-      data[at + 1] = colour[1];
-      data[at + 2] = colour[2];
-      data[at + 3] = 255;
-    }
   }
 }
