@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/base64.hpp"
 #include "core/for_each_whole.hpp"
 #include "core/interrupt.hpp"
 #include "gallery/cell_chunk.hpp"
 #include "gallery/cell_page.hpp"
-#include "gallery/deflated.hpp"
 #include "gallery/derived_pictures.hpp"
 #include "gallery/packed_pixels.hpp"
+#include "gallery/packing.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -71,8 +70,7 @@ ShrunkPictures shrink_pictures(const fs::path& run, const SurfaceOf& surface_of,
 
 records::Thumbnails packed_thumbnails(const std::vector<DisplayImage>& images) {
   PackedPixels packed = packed_pixels(images);
-  records::Thumbnails thumbnails{
-      {}, {}, std::move(packed.ways), base64(deflated(packed.bytes, kMostDeflated))};
+  records::Thumbnails thumbnails{{}, {}, std::move(packed.ways), packed_bytes(packed.bytes)};
   for (const DisplayImage& image : images) {
     thumbnails.widths.push_back(image.width);
     thumbnails.heights.push_back(image.height);

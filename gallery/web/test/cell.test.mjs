@@ -4,7 +4,7 @@ import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { close, fileUrl, hashOf, launch, lobelia, open, ready, requireAccessible, says, seenAt, serve } from './browser.mjs';
+import { close, fileUrl, hashOf, lobelia, open, ready, requireAccessible, says, seenAt, serve } from './browser.mjs';
 import { cellSite, kCell, middle, near } from './cell_site.mjs';
 import { encode, errorOf, ours, writeFarm } from './farm.mjs';
 

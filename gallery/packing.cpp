@@ -1,12 +1,13 @@
-#include "gallery/deflated.hpp"
+#include "gallery/packing.hpp"
 
 #include <zlib.h>
 
+#include "core/base64.hpp"
 #include "core/error.hpp"
 
 namespace lobelia::gallery {
 
-std::string deflated(std::string_view bytes, int level) {
+std::string packed_bytes(std::string_view bytes, int level) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string result(size, '\0');
   const auto* from = reinterpret_cast<const Bytef*>(bytes.data());
@@ -14,7 +15,7 @@ std::string deflated(std::string_view bytes, int level) {
                 static_cast<uLong>(bytes.size()), level) != Z_OK)
     throw Error(ExitCode::kInternal, "zlib: not enough memory");
   result.resize(size);
-  return result;
+  return base64(result);
 }
 
 }  // namespace lobelia::gallery
