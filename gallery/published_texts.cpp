@@ -135,7 +135,8 @@ PublishedTexts::PublishedTexts(std::vector<std::string> hosts, std::vector<std::
 
 void PublishedTexts::keep_apart(const std::vector<records::Axis>& axes) {
   const auto shown = [](const std::string& value) {
-    return value.starts_with('/') ? name_in(value) : without_paths(value);
+    const std::string name = value.starts_with('/') ? name_in(value) : without_paths(value);
+    return tells_path(name) ? std::string(kLeftOut) : name;
   };
   std::set<std::string> used;
   for (const records::Axis& axis : axes)
@@ -156,12 +157,12 @@ bool PublishedTexts::tells_name(const std::string& text) const {
          std::ranges::any_of(names_, [&](const std::string& name) { return has_word(text, name); });
 }
 
-std::string PublishedTexts::lines(std::string_view text) const {
+std::string PublishedTexts::lines(std::string_view text, bool of_log) const {
   std::string shown;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
     const std::string line(text.substr(0, end));
-    if (tells_path(line) || tells_name(line))
+    if (tells_path(line) || (of_log && tells_name(line)))
       shown += kLeftOut + std::string(line.ends_with('\n') ? "\n" : "");
     else
       shown += line;
@@ -222,7 +223,7 @@ std::optional<std::string> PublishedTexts::file(const fs::path& path) const {
   if (!is_record && !is_scene && !contains(kTextFiles, extension)) return std::nullopt;
   const std::string text = read_file(path, records::kMaxRecordBytes);
   if (is_scene) return scene(text);
-  if (!is_record) return lines(text);
+  if (!is_record) return lines(text, extension == ".log");
   std::string shown = record(text);
   return path.filename() == "cell.json" ? cell(std::move(shown), path.parent_path()) : shown;
 }

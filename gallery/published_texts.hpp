@@ -30,8 +30,8 @@ class PublishedTexts {
 
   /// A record, its seal made anew; no record as lines().
   std::string record(std::string_view text) const;
-  /// Without the lines that tell a path, a name or a process ID.
-  std::string lines(std::string_view text) const;
+  /// Without the lines that tell a path or, `of_log`, a name or a process ID.
+  std::string lines(std::string_view text, bool of_log = true) const;
   /// The file as it is published; nothing if it is to be copied as it is. A cell's record has the hashes of its published
   /// files. Throws Error(kInput) if it cannot be read.
   std::optional<std::string> file(const std::filesystem::path& path) const;
