@@ -210,7 +210,7 @@ TEST(Publication, is_the_same_bytes_for_the_same_run) {
   write_publication(farm.directory(), options);  // its own may be replaced
 }
 
-TEST(Publication, says_what_writes_a_zip) {
+TEST(Publication, SaysWhatWritesAZip) {
   const FakeFarm farm;
   GalleryOptions options;
   options.site = "site.ZIP";
@@ -365,7 +365,7 @@ TEST(Publication, in_one_file_is_small_or_one_cell) {
   }
 }
 
-TEST(PublishedTexts, show_the_names_of_files_in_place_of_paths) {
+TEST(PublishedTexts, ShowTheNamesOfFilesInPlaceOfPaths) {
   for (const auto& [text, shown] : std::vector<std::pair<std::string, std::string>>{
            {"lobelia cost /srv/a/b.xml -o '/x y/a b/cost' -q", "lobelia cost b.xml -o 'cost' -q"},
            {"/opt/x/bin/povray +I'/srv/a b/c.pov' -I/usr/include/x", "povray +I'c.pov' -Ix"},
@@ -375,7 +375,7 @@ TEST(PublishedTexts, show_the_names_of_files_in_place_of_paths) {
     EXPECT_EQ(without_paths(text), shown);
 }
 
-TEST(PublishedTexts, know_a_text_that_tells_a_path) {
+TEST(PublishedTexts, KnowATextThatTellsAPath) {
   for (const char* text : {"cannot open /srv/u/x.",
                            "/srv/a b/c",
                            "PATH=/usr/bin:/srv/u/bin",
@@ -406,7 +406,7 @@ TEST(PublishedTexts, know_a_text_that_tells_a_path) {
     EXPECT_FALSE(tells_path(text)) << text;
 }
 
-TEST(PublishedTexts, leave_out_lines_that_tell_of_the_machine) {
+TEST(PublishedTexts, LeaveOutLinesThatTellOfTheMachine) {
   const PublishedTexts texts({"node7.example.org"}, {"ada"});
   const std::string log =
       "by ada\non node7\npid 12\nppid=3\npovray[4711]: x\nin /srv/a/b\n"
@@ -416,7 +416,7 @@ TEST(PublishedTexts, leave_out_lines_that_tell_of_the_machine) {
   EXPECT_EQ(texts.lines(log), shown + log.substr(log.find("Nevada")));
 }
 
-TEST(PublishedTexts, leave_out_who_ran_it_and_where) {
+TEST(PublishedTexts, LeaveOutWhoRanItAndWhere) {
   const std::string shown = PublishedTexts().record(
       R"({"user": "ada", "pid": "4711", "host": {"name": "node7", "cores": "8"}})");
   for (const char* telling : {"ada", "4711", "node7"}) EXPECT_THAT(shown, Not(HasSubstr(telling)));
@@ -424,7 +424,7 @@ TEST(PublishedTexts, leave_out_who_ran_it_and_where) {
 }
 
 /// A home directory in place of each text, whatever its key.
-TEST(PublishedTexts, have_no_home_in_any_text_of_a_record) {
+TEST(PublishedTexts, HaveNoHomeInAnyTextOfARecord) {
   const TelltaleFarm farm;
   const std::string homes[] = {"/home/ada", "'/home/ada lovelace/x.exr'", "~ada/x",
                                "see /home/ada/x y/z", "file:///home/ada/x"};
@@ -445,7 +445,7 @@ TEST(PublishedTexts, have_no_home_in_any_text_of_a_record) {
   EXPECT_GT(planted, 200);
 }
 
-TEST(PublishedTexts, keep_values_of_an_axis_apart_and_a_broken_seal_broken) {
+TEST(PublishedTexts, KeepValuesOfAnAxisApartAndABrokenSealBroken) {
   PublishedTexts texts;
   records::Axis axis{"scene",
                      {{"/a/p/x.xml", ""},
