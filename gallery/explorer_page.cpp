@@ -27,7 +27,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 using Rows = std::vector<std::vector<std::int64_t>>;
 
 constexpr std::size_t kMaxExponents = 1000, kMaxPoints = 1000;
-/// Small enough that a second difference of rows does not overflow.
+/// A double holds every whole number up to here.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
 
 /// The numbers from 0 to `reach` at which the tables have values (docs/records.md).
@@ -253,34 +253,10 @@ void write_highlights(Html& html, const HighlightTables& tables, std::size_t at)
   }
 }
 
-/// Eight digits: more than the tables are good for, and shorter than a double's.
-void round_all(std::vector<double>& values) {
-  for (double& value : values) value = std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr);
-}
-
-/// Replaces rows by their second differences from exponent to exponent, which have few digits. Row 0 stays, row 1 becomes
-/// its difference from row 0.
-void take_differences(Rows& rows) {
-  for (std::size_t r = rows.size(); r-- > 1;)
-    for (std::size_t i = 0; i < rows[r].size(); ++i)
-      rows[r][i] -= r == 1 ? rows[0][i] : 2 * rows[r - 1][i] - rows[r - 2][i];
-}
-
 records::ExplorerPage page_data(HighlightTables tables) {
   for (records::ModelTable& model : tables.models)
     model.coefficient = math_text(model.coefficient), model.angle = math_text(model.angle);
-  for (LobeTable& lobe : tables.lobes) {
-    lobe.formula = math_text(lobe.formula);
-    round_all(lobe.reach);
-    round_all(lobe.half_width);
-    take_differences(lobe.curves);
-  }
-  for (HighlightTable& highlight : tables.highlights) {
-    round_all(highlight.exact);
-    round_all(highlight.paper);
-    take_differences(highlight.seen);
-    take_differences(highlight.lit);
-  }
+  for (LobeTable& lobe : tables.lobes) lobe.formula = math_text(lobe.formula);
   return tables;
 }
 

@@ -173,7 +173,7 @@ struct InlinedPage {
   std::string view, title, main;
 };
 
-/// The explorer's page has HighlightTables with rows as second differences.
+/// The explorer's page has the whole HighlightTables.
 using ExplorerPage = HighlightTables;
 
 void define_page_tables(Tables& tables);

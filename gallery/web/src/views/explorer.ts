@@ -1,6 +1,6 @@
 // One highlight, or two over each other: sphere, curve, coefficient, peak, width, energy and cost at any exponent.
 import { kSphereState, SphereView } from '../explorer/sphere_view';
-import { AtExponent, unpacked } from '../explorer/tables';
+import { AtExponent } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
 import { announce, button, h, select } from '../lib/dom';
@@ -26,7 +26,7 @@ function operationsText(lobe: Operations, model: Operations): string {
 
 export function explorer(main: HTMLElement): void {
   const data = pageData<HighlightTables>(), place = main.querySelector('#explorer');
-  if (data && place) new Explorer(unpacked(data), place);
+  if (data && place) new Explorer(data, place);
 }
 
 class Explorer {
