@@ -114,7 +114,9 @@ class Explorer {
       navigator.clipboard?.writeText(text.textContent ?? '').then(() => announce('The shader is copied.'), () => { shader.open = true; });
     }, { 'aria-label': `Copy shader ${name}` });
     const save = button('Save float picture', () => {
-      const address = URL.createObjectURL(this.sphere.pfm(suffix ? 1 : 0)), chosen = this.chosen(side);
+      const picture = this.sphere.pfm(suffix ? 1 : 0), chosen = this.chosen(side);
+      if (!picture) return;
+      const address = URL.createObjectURL(picture);
       h('a', { href: address, download: `${chosen?.model.name}-${chosen?.lobe.name}-${chosen?.at.n}.pfm` }).click();
       setTimeout(() => URL.revokeObjectURL(address), 60_000);
     }, { 'aria-label': `Save float picture ${name}` });
@@ -162,7 +164,7 @@ class Explorer {
     for (const panel of this.panels) panel.refresh();
     const shown = this.shown();
     this.sphere.refresh(shown.map((c) => ({
-      model: c.model, n: c.at.n, shader: c.shader, curve: c.at.curve(c.lobe), coefficient: c.at.coefficient(c.highlight, c.norm),
+      model: c.model, n: c.at.n, shader: c.shader, coefficient: c.at.coefficient(c.highlight, c.norm),
     })));
     this.drawCurves(shown);
     this.drawEnergy(shown);
