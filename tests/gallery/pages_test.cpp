@@ -85,7 +85,7 @@ TEST(GalleryPages, a_cell_shows_its_numbers_curves_plan_and_commands) {
   write_gallery(farm.directory());
   const Site site(farm.directory());
   const auto& page = site.cell(FakeFarm::kPass);
-  EXPECT_EQ(page.select_nodes("//svg").size(), 2u);
+  EXPECT_EQ(page.select_nodes("//svg").size(), 1u);
   const std::string text = text_of(page);
   for (const char* words :
        {"Phong (RDF) · n = 16", "white = 0.0016 = 0.06 % of the peak", "some.new.one", "at (1, 0)",
