@@ -97,7 +97,7 @@ records::Comparison record_of_files() {
   others.not_compared = {{"Z"}, true, 5, 2};
   others.common = {{}, {"Z"}, {}};
   source.icc_profile = "sRGB";
-  source.gain_map = "applied";
+  source.has_gain_map = true;
   source.chromaticities = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
   const Comparison picture = compare(good, good, {});
   records::Comparison made = comparison_record(picture, "a.exr", "b.exr");
