@@ -53,7 +53,6 @@ void define_page_tables(Tables& tables) {
   tables.define<ShownComparison>("A comparison of two engines' pictures.", [](auto& t) {
     t.key("picture", "of the difference").or_null();
     t.keys({"whiteAt", "worstY"}).or_null().may_be_nonfinite();
-    t.key("relativeToPeak").or_null();
     t.key("worstX", "pixel of the largest difference").or_null().may_be_nonfinite();
     t.key("region", "script with the PixelRuns of the highlight").if_any();
   });

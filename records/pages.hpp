@@ -89,7 +89,7 @@ struct ShownMap {
 struct ShownComparison {
   std::string a, b;
   std::optional<ShownPicture> picture;
-  std::optional<double> white_at, relative_to_peak;
+  std::optional<double> white_at;
   std::vector<ShownMap> maps;
   std::optional<double> worst_x, worst_y;
   std::string region;

@@ -148,7 +148,6 @@ export interface ShownComparison {
   /** of the difference */
   picture: ShownPicture | null;
   whiteAt: number | "nan" | "inf" | "-inf" | null;
-  relativeToPeak: number | null;
   maps: ShownMap[];
   /** pixel of the largest difference */
   worstX: number | "nan" | "inf" | "-inf" | null;
