@@ -12,8 +12,8 @@ inline constexpr std::uint64_t kMostBytesOfPage = 64u << 20;
 /// write_gallery() of RUN to `options.site`: one HTML file if that ends in .html, otherwise a folder.
 /// Nothing has the final name before it is whole, but for a folder that is there already: its files are replaced one
 /// by one. The index of the result is the file, or the folder's index.html.
-/// Throws as write_gallery(), Error(kUsage) for a zip, and Error(kOutput) if something is there that is no such publication, if it is the run, or if it
-/// would be larger than its form allows.
+/// Throws as write_gallery(), Error(kUsage) for a zip, and Error(kOutput) if something is there that is no such
+/// publication, if it is the run, or if it would be larger than its form allows.
 PublishedGallery write_publication(const std::filesystem::path& run, const GalleryOptions& options);
 
 }  // namespace lobelia::gallery
