@@ -235,7 +235,7 @@ TEST(BrokenRecords, AreRefusedWhereTheirPlacesAreFinite) {
   EXPECT_THROW(records::parse_record<records::Comparison>(finite.dump(), "a test"), Error);
 }
 
-TEST(BrokenRecords, OfProfilesAreRefused) {
+TEST(BrokenRecords, AreRefusedForProfiles) {
   const Scene scene = scene_with("phong_rdf", 64);
   const Image picture = render(scene, RenderOptions{}).image;
   const Plain good = as_written(profile_scene(scene, 0, 0, {{"a", &picture}}));
