@@ -1,22 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <tuple>
-
 #include "gallery/index_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-constexpr std::size_t kMostWorst = 200;
-
-double largest_difference(const CellSummary& cell) {
-  double largest = 0;
-  for (const auto& [engine, metrics] : cell.metrics)
-    if (const double* one = records::find(metrics, "max_rel_peak"))
-      largest = std::max(largest, *one);
-  return largest;
-}
 
 class GridWriter {
  public:
@@ -28,7 +15,10 @@ class GridWriter {
     const Tag place(html_, "div", {{"id", "grid"}, {"class", "grid-place"}});
     // The script draws the grid. Where it runs, thousands of cells are one text here, and no elements.
     const Tag without_script(html_, "noscript");
-    site_.is_packed ? write_worst() : write_list();
+    if (!site_.is_packed) return write_list();
+    html_.element("p", fmt::format("The grid of all {}s, their pictures and their pages need the "
+                                   "script: allow scripts to see them.",
+                                   farm_.noun()));
   }
 
  private:
@@ -50,33 +40,6 @@ class GridWriter {
       html_.text(" ");
       write_status(html_, status);
       write_change(cell);
-      write_figures(cell);
-    }
-  }
-
-  /// In words, because a cell's page and its pictures need the script.
-  void write_worst() {
-    using Rank = std::tuple<int, double, std::ptrdiff_t>;
-    std::vector<Rank> ranks;
-    for (const CellSummary& cell : cells_)
-      ranks.emplace_back(rank_of(cell.status), -largest_difference(cell), &cell - cells_.data());
-    const std::size_t count = std::min(ranks.size(), kMostWorst);
-    std::ranges::partial_sort(ranks, ranks.begin() + std::ptrdiff_t(count));
-    ranks.resize(count);
-    const Tag outer(html_, "section", {{"class", "grid-section"}, {"aria-labelledby", "worst"}});
-    html_.element("h2", {{"id", "worst"}},
-                  fmt::format("The worst {} of {} {}s", count, cells_.size(), farm_.noun()));
-    html_.element(
-        "p",
-        fmt::format(
-            "The grid of all {}s, their pictures and their pages need the script: allow scripts to see them.",
-            farm_.noun()));
-    const Tag list(html_, "ul");
-    for (const auto& [status, difference, place] : ranks) {
-      const CellSummary& cell = cells_[std::size_t(place)];
-      const Tag item(html_, "li");
-      write_status(html_, farm_.words_of(cell.status));
-      html_.text(" " + cell.entry->title() + " ");
       write_figures(cell);
     }
   }
