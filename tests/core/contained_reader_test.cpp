@@ -28,6 +28,7 @@
 #include "lobelia_paths.hpp"
 #include "tests/core/format_samples.hpp"
 #include "tests/core/picture_fixture.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -225,13 +226,8 @@ TEST_F(ContainedReader, HoldsAPictureToTheLimitOfWhoeverAsksBeforeItIsUnpacked) 
       png_chunk("IHDR", big_endian(1100) + big_endian(1000) + "\x08\x02" + std::string(3, '\0')) +
       png_chunk("IDAT", "") + png_chunk("IEND", "");
   const fs::path path = file("a.png", png);
-  const auto why = [&](const PictureLimit& limit) -> std::string {
-    try {
-      read_picture(path, "", limit);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto why = [&](const PictureLimit& limit) {
+    return error_words(ExitCode::kInput, [&] { read_picture(path, "", limit); });
   };
   EXPECT_THAT(why({1'099'999, 0}),
               HasSubstr("claims 1100000 pixels in a file of 57 bytes; allowed here: 1099999"));

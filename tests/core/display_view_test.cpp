@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -61,14 +61,7 @@ class DisplayViews : public ::testing::Test {
   }
   void TearDown() override { ::unsetenv("OCIO"); }
   std::string message_of(const DisplayViewChoice& choice, ExitCode code) {
-    try {
-      DisplayView::open(choice);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code);
-      return error.what();
-    }
-    ADD_FAILURE() << "it was opened";
-    return "";
+    return error_words(code, [&] { DisplayView::open(choice); });
   }
   /// A view's output for one value in red, green and blue.
   static float grey(const DisplayView& view, float value, double stops = 0) {

@@ -1,4 +1,5 @@
 #include "core/picture_layers.hpp"
+#include "tests/thrown.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +8,6 @@
 #include <map>
 #include <random>
 #include <set>
-
-#include "core/error.hpp"
 
 namespace lobelia {
 namespace {
@@ -23,14 +22,7 @@ std::vector<std::string> names(const std::vector<PicturePart>& parts) {
 }
 
 std::string message(const std::vector<PicturePart>& parts, const std::string& name) {
-  try {
-    find_layer("a.exr", parts, name);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInput);
-    return error.what();
-  }
-  ADD_FAILURE() << "'" << name << "' was found";
-  return "";
+  return error_words(ExitCode::kInput, [&] { find_layer("a.exr", parts, name); });
 }
 
 TEST(PictureLayers, AreFoundByNameInWhateverOrderTheChannelsAre) {

@@ -20,6 +20,7 @@
 #include "core/keeper_protocol.hpp"
 #include "core/spawn.hpp"
 #include "core/write_limit.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -125,14 +126,8 @@ TEST(Process, IsKilledWhenItsCallerWantsItStopped) {
 }
 
 TEST(Process, SaysInAnEngineErrorWhyItCannotBeStarted) {
-  const auto why = [](const std::string& program, const ProcessOptions& options) -> std::string {
-    try {
-      run_process({program}, options);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kEngine);
-      return error.what();
-    }
-    return "";
+  const auto why = [](const std::string& program, const ProcessOptions& options) {
+    return error_words(ExitCode::kEngine, [&] { run_process({program}, options); });
   };
   EXPECT_EQ(why("/no/such/program", {}),
             "/no/such/program: cannot be started: No such file or directory");

@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -249,13 +250,9 @@ TEST_F(RemovalTest, TakesNothingForMissingOrEmptyThatTooManyOpenFilesHide) {
                                          [&] { all.remove("tree"); }};
   for (const auto& look : looks) {
     const NoOpenFiles limit;
-    try {
-      look();
-      ADD_FAILURE() << &look - looks;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kNoResources) << &look - looks;
-      EXPECT_THAT(error.what(), HasSubstr("too many open files (ulimit -n)"));
-    }
+    EXPECT_THAT(error_words(ExitCode::kNoResources, look),
+                HasSubstr("too many open files (ulimit -n)"))
+        << &look - looks;
   }
   EXPECT_TRUE(fs::exists(root() / "tree" / "inner"));
 }

@@ -2,13 +2,13 @@
 
 #include <set>
 
-#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm_fixture.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -246,12 +246,8 @@ TEST_F(FarmTest, AgainMakesEverythingAgain) {
 
 TEST_F(FarmTest, ADirectoryThatCannotBeWrittenIsSaidBeforeAnythingIsRendered) {
   write_file(directory_.path() / "file", "x");
-  try {
-    run_farm(grid("16"), directory_.path() / "file" / "out", {});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kOutput);
-  }
+  const auto run = [&] { run_farm(grid("16"), directory_.path() / "file" / "out", {}); };
+  EXPECT_EQ(thrown_by(run).code(), ExitCode::kOutput);
 }
 
 TEST_F(FarmTest, ReportsEveryStep) {

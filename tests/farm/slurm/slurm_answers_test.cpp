@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "farm/slurm/slurm_options.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -175,12 +176,7 @@ TEST(SlurmOptions, AreRefusedIfTheyWouldBreakTheRun) {
   const auto refused = [](auto change) {
     SlurmOptions options;
     change(options);
-    try {
-      sbatch_arguments(options);
-    } catch (const Error& error) {
-      return error.code() == ExitCode::kUsage;
-    }
-    return false;
+    return thrown_by([&] { sbatch_arguments(options); }).code() == ExitCode::kUsage;
   };
   for (const char* raw : {"-n4", "script.sh", "--", "", "--x\n--y", "--array=0-3", "--job-name=a",
                           "--wrap=id", "--output=x", "--dependency=singleton", "--depend=x",
