@@ -1,6 +1,11 @@
 #include "gallery/half_picture.hpp"
 
-#include "core/half.hpp"
+#define IMATH_HALF_NO_LOOKUP_TABLE  // which would need its library
+#include <Imath/half.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "core/image_values.hpp"
 #include "gallery/packing.hpp"
 
@@ -66,7 +71,7 @@ records::PackedPicture half_picture(const Image& image, int precision) {
   halves.reserve(image.values().size());
   for (const float value : image.values()) {
     const bool is_small = std::abs(value) < result.least;
-    halves.push_back(Half(is_small ? 0.0f : std::ldexp(value, result.scale_log2)).bits());
+    halves.push_back(Imath::half(is_small ? 0.0f : std::ldexp(value, result.scale_log2)).bits());
   }
   const auto packed = [&](bool is_predicted) {
     constexpr int kQuick = 6;
