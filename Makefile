@@ -24,7 +24,7 @@ space     = $(subst ,, )
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-details bench-compare fuzz chaos lint docs install uninstall package clean
+.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-compare fuzz chaos lint docs install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -107,11 +107,6 @@ bench: ## measures each goal of speed beside what it is held to, in one table; Q
 	$(build) --target lobelia lobelia_image_io bench_goals
 	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick) \
 	    --commit "$$(git describe --always --dirty=+ --exclude='*')" --committed "$$(git log -1 --format=%cs)" --keep "$(BENCH)"
-
-bench-details: ## times of lobes, lights, comparisons, files and engines, in many tables
-	$(setup) build engines
-	$(configure)
-	$(build) --target run_bench_details
 
 bench-compare: ## what became slower or faster since the commit BASE, both builds in turn
 	$(setup) build

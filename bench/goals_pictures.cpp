@@ -12,9 +12,10 @@
 
 #include "bench/goals.hpp"
 #include "bench/hand_written.hpp"
-#include "bench/sections.hpp"
+#include "bench/inputs.hpp"
 #include "core/files.hpp"
 #include "core/threads.hpp"
+#include "core/timing.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"

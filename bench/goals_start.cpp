@@ -4,7 +4,7 @@
 
 #include "bench/goals.hpp"
 #include "bench/inputs.hpp"
-#include "bench/sections.hpp"
+#include "core/timing.hpp"
 
 namespace lobelia::bench {
 namespace {

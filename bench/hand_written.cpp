@@ -5,7 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bench/sections.hpp"
+#include "bench/inputs.hpp"
+#include "core/timing.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 

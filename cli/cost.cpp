@@ -91,6 +91,11 @@ void add_cost(CLI::App& app, ExitCode&) {
   std::vector<std::string> names;
   for (const cost::Benchmark& level : cost::benchmarks()) names.emplace_back(level.name);
   command->add_option("--level", options->levels, "Measure this level alone; may be given again")
+      ->check([](const std::string& level) {
+        return level == "fixed-point"
+                   ? "is gone; lobelia search --precision fixed:BITS has lobes in fixed point"
+                   : std::string();
+      })
       ->check(CLI::IsMember(names))
       ->expected(1)
       ->take_all()

@@ -17,16 +17,10 @@ struct LobeErrors {
   std::optional<double> max_at_most;
 };
 
-struct CircuitErrors {
-  double shape = 0, rounding = 0, quantisation = 0;
-  std::size_t steps = 0, steps_looked_at = 0;
-};
-
 struct CostFacts {
   std::optional<Operations> operations;
   std::optional<LobeErrors> shape, rounding;
   std::optional<std::size_t> numbers_looked_at;
-  std::optional<CircuitErrors> circuit;
   std::optional<int> samples;
   std::string kernel;
   std::optional<double> predicted_cost;

@@ -7,7 +7,6 @@ namespace {
 
 constexpr Benchmark kBenchmarks[] = {
     {"lobe", "every lobe, computed in every variant", false, &measure_lobes},
-    {"fixed-point", "lobes as circuits, by their number of bits", false, &measure_fixed_point},
     {"picture", "milliseconds a megapixel over the errors of the picture", true, &measure_pictures},
     {"transport",
      "light transport: error over samples and time, with and without importance sampling", false,

@@ -55,9 +55,6 @@ std::vector<Table> measure_lobes(const Options& options);
 /// largest error of a variant, and may then give only a bracket of it.
 Table lobe_table(double exponent, int rounds, bool quick);
 
-/// One table per exponent, "fixed-point-n64". Nothing is timed.
-std::vector<Table> measure_fixed_point(const Options& options);
-
 /// One table per scene, by lobe and precision, rendered by one thread.
 std::vector<Table> measure_pictures(const Options& options);
 

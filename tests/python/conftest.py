@@ -23,6 +23,13 @@ def image(scene):
 
 
 @pytest.fixture
+def small_scene(scene, tmp_path):
+    file = tmp_path / "small.xml"
+    file.write_text(lobelia.scene_xml(scene, width=24, height=24))
+    return file
+
+
+@pytest.fixture
 def command():
     """Runs the program; returns its exit code, stdout, and stderr without "lobelia: "."""
     import os

@@ -397,10 +397,10 @@ def test_a_farm_has_the_identity_of_the_module_and_not_of_python(scene, tmp_path
     assert program.split()[-1] in notes.stdout
 
 
-def test_cost_measures_a_level():
-    record = lobelia.cost(level="fixed-point", effort="quick")
+def test_cost_measures_a_level(small_scene):
+    record = lobelia.cost(small_scene, level="picture", effort="quick")
     assert record.kind == "cost"
-    assert {table.level for table in record.tables} == {"fixed-point"}
+    assert {table.level for table in record.tables} == {"picture"}
     with pytest.raises(lobelia.UsageError, match="needs a SCENE"):
         lobelia.cost(level="picture")
     with pytest.raises(lobelia.UsageError, match="lobe"):
