@@ -13,7 +13,6 @@
 #include "records/conversion.hpp"
 #include "records/cost.hpp"
 #include "records/farm.hpp"
-#include "records/gltf.hpp"
 #include "records/lobe_search.hpp"
 #include "records/models.hpp"
 #include "records/pages.hpp"
@@ -117,14 +116,13 @@ const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
     for (auto* const define :
-         {define_agreement_tables, define_bench_tables,        define_chart_tables,
-          define_cluster_tables,   define_comparison_tables,   define_conversion_tables,
-          define_cost_tables,      define_farm_tables,         define_gltf_tables,
-          define_highlight_tables, define_lobe_search_tables,  define_model_tables,
-          define_page_tables,      define_paper_tables,        define_profile_tables,
-          define_project_tables,   define_render_tables,       define_result_tables,
-          define_scene_tables,     define_shader_check_tables, define_stability_tables,
-          define_verdict_tables})
+         {define_agreement_tables,    define_bench_tables,      define_chart_tables,
+          define_cluster_tables,      define_comparison_tables, define_conversion_tables,
+          define_cost_tables,         define_farm_tables,       define_highlight_tables,
+          define_lobe_search_tables,  define_model_tables,      define_page_tables,
+          define_paper_tables,        define_profile_tables,    define_project_tables,
+          define_render_tables,       define_result_tables,     define_scene_tables,
+          define_shader_check_tables, define_stability_tables,  define_verdict_tables})
       define(all);
     return all;
   }();

@@ -8,7 +8,7 @@ void define_cost_tables(Tables& tables) {
                             [](auto& t) { t.all().may_be_nonfinite(); });
   tables.define<CostFacts>("What else was counted.", [](auto& t) {
     t.key("kernel").if_any();
-    t.keys({"secondsSaved", "stageSeconds", "secondsOfTinyCall"}).unit("seconds");
+    t.keys({"secondsSaved", "secondsOfTinyCall"}).unit("seconds");
     t.key("work", "by effect");
   });
   tables.define<CostVariant>("A variant of what the table is about.", [](auto& t) {

@@ -27,7 +27,6 @@ struct CostFacts {
   std::optional<Rays> rays;
   std::optional<double> rays_saved, seconds_saved;
   std::optional<Named<Work>> work;
-  std::optional<Named<double>> stage_seconds;
   std::optional<double> seconds_of_tiny_call;
 };
 

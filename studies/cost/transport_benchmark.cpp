@@ -98,7 +98,8 @@ class TransportEngine {
     }
     name = info->name;
     title = info->transport;
-    engine_ = make_engine(name, options.program(name));
+    const auto program = options.programs.find(name);
+    engine_ = make_engine(name, program == options.programs.end() ? "" : program->second);
     const EngineStatus& status = engine_->status();
     why_not = status.why;
     if (!status.available()) return;
@@ -313,7 +314,7 @@ std::vector<Table> measure_transport(const Options& options) {
   for (const NamedScene& given : options.scenes)
     if (has_transport(given.scene))
       add(given.name, given.name, with_film(given.scene, side), nullptr,
-          "only the built-in scenes are told to it in this way (see the level engine)");
+          "only the built-in scenes are told to it in this way");
   return tables;
 }
 

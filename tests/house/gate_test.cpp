@@ -110,10 +110,6 @@ const std::vector<Allowed>& allowed_places() {
        {"read_file(file, kMostInvocations", "run_process(command, options)"}},
       {"shaders/runner/runner.cpp", "our runner reads what we gave it", {"std::ifstream in(file"}},
       {"shaders/spirv.cpp", "a compiler's answer in our directory", {"read_file(scratch.path()"}},
-      {"studies/cost/engine_benchmark.cpp",
-       "ourselves, in our directory",
-       {"run_process(arguments, {})", "read_image(picture)", "\"render.json\"",
-        "\"reference.json\""}},
   };
   return all;
 }
