@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <queue>
 #include <regex>
 
@@ -119,29 +118,6 @@ double task_overhead() {
   return seconds / ran;
 }
 
-/// Wall time of tasks that write to each page of a new picture and then wait for `seconds`, all on one thread together:
-/// what memory, oneTBB and the system leave of two threads. A first write makes the system clear a page, which two
-/// processors do hardly faster than one; and a thread that sleeps begins some time after it is woken.
-double limit_seconds(int side, double seconds, int threads) {
-  constexpr int kTasks = 512;
-  constexpr std::size_t kFloatsOfPage = 1024;
-  Image image(side, side);
-  const std::span<float> values = image.values();
-  const std::size_t part = values.size() / kTasks;
-  return seconds_of([&] {
-    ThreadLimit(threads).run([&] {
-      oneapi::tbb::parallel_for(0, kTasks, [&](int task) {
-        for (std::size_t i = 0; i < part; i += kFloatsOfPage)
-          values[std::size_t(task) * part + i] = 1;
-        const auto end =
-            std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds / kTasks);
-        while (std::chrono::steady_clock::now() < end) {
-        }
-      });
-    });
-  });
-}
-
 /// A schedule of 64 cores, from times of the renderer's tasks that were taken by one thread.
 void add_simulated_goal(Goals& goals, const std::shared_ptr<const Scene>& scene) {
   constexpr int kCores = 64;
@@ -197,11 +173,6 @@ void add_kernel_goals(const Tools& tools, Goals& goals) {
                "a loop written by hand", true, 0.75, 25, 9, [=] {
                  return Round{cs16->seconds(), by_hand->seconds()};
                }});
-    goals.add({fmt::format("kernel.{}.by_hand", set.name),
-               fmt::format("the loop written by hand, {}", set.title), "s",
-               "its arithmetic and stores alone", true, 0.8, 25, 9, [=] {
-                 return Round{by_hand->seconds(), by_hand->roofline_seconds()};
-               }});
   }
 }
 
@@ -227,17 +198,6 @@ void add_thread_goals(const Tools&, Goals& goals) {
                  warm_up();
                  const double one = seconds(1);
                  return Round{processors * seconds(processors), one};
-               }});
-    goals.add({fmt::format("threads.limit.{}", side),
-               fmt::format("{0} threads, {1} x {1}", processors, side), "s",
-               "they write new memory, then wait", true, 0.93, 15, 7, [=] {
-                 warm_up();
-                 const double one = seconds(1), ours = seconds(processors);
-                 const auto limit = [&](double waits, int threads) {
-                   return least_seconds(3, [&] { return limit_seconds(side, waits, threads); });
-                 };
-                 const double waits = std::max(0.0, one - limit(0, 1));
-                 return Round{ours, limit(waits, processors)};
                }});
     add_simulated_goal(goals, scene);
   }

@@ -54,10 +54,4 @@ double HandWritten::seconds() {
       [&] { set_ == Set::kAvx2 ? avx2::render(picture_) : avx512::render(picture_); });
 }
 
-double HandWritten::roofline_seconds() {
-  return warm_seconds([&] {
-    set_ == Set::kAvx2 ? avx2::do_arithmetic(picture_) : avx512::do_arithmetic(picture_);
-  });
-}
-
 }  // namespace lobelia::bench

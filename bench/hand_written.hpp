@@ -18,12 +18,9 @@ struct HandWrittenPicture {
 
 namespace avx2 {
 void render(const HandWrittenPicture& picture);
-/// The same divisions, roots, multiplications and stores, none of which waits for another. Its numbers mean nothing.
-void do_arithmetic(const HandWrittenPicture& picture);
 }  // namespace avx2
 namespace avx512 {
 void render(const HandWrittenPicture& picture);
-void do_arithmetic(const HandWrittenPicture& picture);
 }  // namespace avx512
 
 class HandWritten {
@@ -32,7 +29,6 @@ class HandWritten {
   /// Throws std::runtime_error if its picture is not the renderer's.
   HandWritten(Set set, int side);
   double seconds();
-  double roofline_seconds();
 
  private:
   Set set_;
