@@ -18,14 +18,10 @@ constexpr CommonOption kCommonOptions[] = {
 };
 
 constexpr OldOption kOldOptions[] = {
-    {"compare", "--noise-seed", "--seed N"},
-    {"convert", "-o", "--json FILE"},
-    {"convert", "--output", "--json FILE"},
-    {"search", "-o", "--json FILE"},
-    {"search", "--output", "--json FILE"},
-    {"reference", "--witness", "--shading NAME"},
+    {"compare", "--noise-seed", "--seed N"},   {"convert", "-o", "--json FILE"},
+    {"convert", "--output", "--json FILE"},    {"search", "-o", "--json FILE"},
+    {"search", "--output", "--json FILE"},     {"reference", "--witness", "--shading NAME"},
     {"reference", "--point-seed", "--seed N"},
-    {"stability", "--no-timing", "lobelia cost --level picture for times"},
 };
 
 Verbosity g_verbosity;
