@@ -50,6 +50,7 @@ std::string hint_of_old_level(const std::string& level) {
   if (level == "fixed-point")
     return "fixed-point is gone; use lobelia search --precision fixed:BITS";
   if (level == "engine") return "engine is gone; use lobelia verify references, and make bench";
+  if (level == "effects") return "effects is gone; compare pictures of two scenes";
   return "";
 }
 

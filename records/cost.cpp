@@ -8,8 +8,7 @@ void define_cost_tables(Tables& tables) {
                             [](auto& t) { t.all().may_be_nonfinite(); });
   tables.define<CostFacts>("What else was counted.", [](auto& t) {
     t.key("kernel").if_any();
-    t.keys({"secondsSaved", "secondsOfTinyCall"}).unit("seconds");
-    t.key("work", "by effect");
+    t.key("secondsOfTinyCall").unit("seconds");
   });
   tables.define<CostVariant>("A variant of what the table is about.", [](auto& t) {
     t.key("seconds", "of one of what the table counts");

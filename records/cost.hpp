@@ -25,8 +25,6 @@ struct CostFacts {
   std::string kernel;
   std::optional<double> predicted_cost;
   std::optional<Rays> rays;
-  std::optional<double> rays_saved, seconds_saved;
-  std::optional<Named<Work>> work;
   std::optional<double> seconds_of_tiny_call;
 };
 

@@ -17,8 +17,6 @@ constexpr Benchmark kBenchmarks[] = {
     {"transport",
      "light transport: error over samples and time, with and without importance sampling", false,
      &measure_transport},
-    {"effects", "each effect of light: what it costs, and what the picture loses without it", false,
-     &measure_effects},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The benchmarks of `lobelia cost`: from one evaluation of a lobe to the effects of a picture.
+// The benchmarks of `lobelia cost`: from one evaluation of a lobe to light transport.
 #pragma once
 
 #include <filesystem>
@@ -69,8 +69,5 @@ std::vector<Table> measure_pictures(const Options& options);
 std::vector<Table> measure_transport(const Options& options);
 /// Whether the scene has light to sample at random: area lights, a sky, a lens or inter-reflection.
 bool has_transport(const Scene& scene);
-
-/// Each given scene, else everything(): a variant with all effects, and one without each effect that is on.
-std::vector<Table> measure_effects(const Options& options);
 
 }  // namespace lobelia::cost
