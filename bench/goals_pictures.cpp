@@ -2,18 +2,13 @@
 #include <fmt/format.h>
 #include <hwy/highway.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
-#include <atomic>
-#include <queue>
 #include <regex>
 
 #include "bench/goals.hpp"
 #include "bench/hand_written.hpp"
 #include "bench/inputs.hpp"
 #include "core/files.hpp"
-#include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
@@ -91,61 +86,6 @@ class PovRayTrace {
   fs::path input_;
 };
 
-/// Seconds until the last of `cores` ends, if each takes the next task when it is free.
-double makespan(const std::vector<double>& tasks, int cores) {
-  std::priority_queue<double, std::vector<double>, std::greater<>> free(
-      {}, std::vector<double>(std::size_t(cores)));
-  double end = 0;
-  for (const double task : tasks) {
-    const double done = free.top() + task;
-    free.pop();
-    free.push(done);
-    end = std::max(end, done);
-  }
-  return end;
-}
-
-/// Seconds that the scheduler takes for a task of its own, with one thread.
-double task_overhead() {
-  constexpr int kTasks = 10000;
-  std::atomic<int> ran{0};
-  const double seconds = seconds_of([&] {
-    ThreadLimit(1).run([&] {
-      oneapi::tbb::parallel_for(
-          0, kTasks, [&](int) { ++ran; }, oneapi::tbb::simple_partitioner());
-    });
-  });
-  return seconds / ran;
-}
-
-/// A schedule of 64 cores, from times of the renderer's tasks that were taken by one thread.
-void add_simulated_goal(Goals& goals, const std::shared_ptr<const Scene>& scene) {
-  constexpr int kCores = 64;
-  const int side = scene->film.width;
-  const auto renderer =
-      std::make_shared<FusedRenderer>(*scene, make_plan(*scene, EffectPolicy::kAsCalledFor));
-  const auto image = std::make_shared<Image>(side, side);
-  goals.add({fmt::format("threads.simulated.{}", side),
-             fmt::format("{0} cores, {1} x {1}, times their number", kCores, side), "s",
-             "one thread; the cores are simulated", true, 0.9, 15, 7, [=] {
-               const int rows = FusedRenderer::rows_of_task(side);
-               const double overhead = task_overhead();
-               // The least of some runs, because one interruption is as long as many tasks.
-               std::vector<double> tasks(std::size_t((side + rows - 1) / rows), 1e9);
-               for (int run = 0; run < 5; ++run)
-                 for (std::size_t t = 0; t < tasks.size(); ++t) {
-                   const int y = int(t) * rows;
-                   float* const to = image->values().data() + std::size_t(3) * side * y;
-                   tasks[t] = std::min(tasks[t], seconds_of([&] {
-                                         renderer->render_rows(y, std::min(side, y + rows), to);
-                                       }));
-                 }
-               double one = 0;
-               for (double& task : tasks) one += task, task += overhead;
-               return Round{kCores * makespan(tasks, kCores), one};
-             }});
-}
-
 }  // namespace
 
 void add_kernel_goals(const Tools& tools, Goals& goals) {
@@ -199,7 +139,6 @@ void add_thread_goals(const Tools&, Goals& goals) {
                  const double one = seconds(1);
                  return Round{processors * seconds(processors), one};
                }});
-    add_simulated_goal(goals, scene);
   }
 }
 
