@@ -1,4 +1,4 @@
-// Kernels beside POV-Ray's tracing, beside a loop written by hand, and on several threads.
+// Kernels beside POV-Ray's tracing, and on several threads.
 #include <fmt/format.h>
 #include <hwy/highway.h>
 #include <oneapi/tbb/info.h>
@@ -6,7 +6,6 @@
 #include <regex>
 
 #include "bench/goals.hpp"
-#include "bench/hand_written.hpp"
 #include "bench/inputs.hpp"
 #include "core/files.hpp"
 #include "core/timing.hpp"
@@ -24,16 +23,14 @@ constexpr int kSide = 1024;
 struct InstructionSet {
   const char *name, *title;
   std::int64_t targets;
-  HandWritten::Set set;
 };
 constexpr InstructionSet kSets[] = {
-    {"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3, HandWritten::Set::kAvx2},
-    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3, HandWritten::Set::kAvx512}};
+    {"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3},
+    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3}};
 
-Scene head_on(std::string_view lobe, int side) {
+Scene head_on(int side) {
   Scene scene = read_scene(scene_file("head_on"));
   scene.film.width = scene.film.height = side;
-  scene.materials[0].highlight.lobe = *find_lobe(lobe);
   return scene;
 }
 
@@ -89,29 +86,22 @@ class PovRayTrace {
 }  // namespace
 
 void add_kernel_goals(const Tools& tools, Goals& goals) {
-  const bool has_povray = !find_program("povray").empty();
-  std::shared_ptr<PovRayTrace> povray;
-  if (has_povray) povray = std::make_shared<PovRayTrace>(tools, head_on("cosine", kSide));
+  if (find_program("povray").empty()) {
+    goals.leave_out("kernel", "no POV-Ray here");
+    return;
+  }
+  const Scene scene = head_on(kSide);
+  const auto povray = std::make_shared<PovRayTrace>(tools, scene);
   for (const InstructionSet& set : kSets) {
+    const std::string id = fmt::format("kernel.{}.cosine", set.name);
     if (!(hwy::SupportedTargets() & set.targets & -set.targets & (HWY_AVX2 | HWY_AVX3))) {
-      goals.leave_out(fmt::format("kernel.{}", set.name), "this processor does not have it");
+      goals.leave_out(id, "this processor does not have it");
       continue;
     }
-    const auto cosine = std::make_shared<OneThread>(head_on("cosine", kSide), set.targets);
-    if (povray)
-      goals.add({fmt::format("kernel.{}.cosine", set.name),
-                 fmt::format("head-on, cosⁿ, 1024 x 1024, {}", set.title), "s", "POV-Ray's tracing",
-                 true, 100, 5, 3, [=] {
-                   return Round{cosine->seconds(), povray->seconds()};
-                 }});
-    else
-      goals.leave_out(fmt::format("kernel.{}.cosine", set.name), "no POV-Ray here");
-    const auto cs16 = std::make_shared<OneThread>(head_on("cs16", kSide), set.targets);
-    const auto by_hand = std::make_shared<HandWritten>(set.set, kSide);
-    goals.add({fmt::format("kernel.{}.cs16", set.name),
-               fmt::format("head-on, cs16, 1024 x 1024, {}", set.title), "s",
-               "a loop written by hand", true, 0.75, 25, 9, [=] {
-                 return Round{cs16->seconds(), by_hand->seconds()};
+    const auto ours = std::make_shared<OneThread>(scene, set.targets);
+    goals.add({id, fmt::format("head-on, cosⁿ, 1024 x 1024, {}", set.title), "s",
+               "POV-Ray's tracing", true, 100, 5, 3, [=] {
+                 return Round{ours->seconds(), povray->seconds()};
                }});
   }
 }
@@ -119,7 +109,7 @@ void add_kernel_goals(const Tools& tools, Goals& goals) {
 void add_thread_goals(const Tools&, Goals& goals) {
   const int processors = oneapi::tbb::info::default_concurrency();
   for (const int side : {1024, 4096}) {
-    const auto scene = std::make_shared<Scene>(head_on("cosine", side));
+    const auto scene = std::make_shared<Scene>(head_on(side));
     // Every pixel of the disc is computed.
     scene->materials[0].diffuse_reflectance = {0.5, 0.5, 0.5};
     // The least of three, as a thread that sleeps may begin milliseconds late.
