@@ -24,9 +24,8 @@ struct InstructionSet {
   const char *name, *title;
   std::int64_t targets;
 };
-constexpr InstructionSet kSets[] = {
-    {"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3},
-    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3}};
+constexpr InstructionSet kSets[] = {{"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3},
+                                    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3}};
 
 Scene head_on(int side) {
   Scene scene = read_scene(scene_file("head_on"));

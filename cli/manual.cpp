@@ -36,8 +36,8 @@ void write(const Files& files, const std::filesystem::path& directory) {
 }  // namespace
 
 void add_manual(CLI::App& app, ExitCode&) {
-  auto* command = app.add_subcommand(
-      "manual", "Write man pages, and completions for bash, into a directory");
+  auto* command =
+      app.add_subcommand("manual", "Write man pages, and completions for bash, into a directory");
   auto share = std::make_shared<std::string>(), docs = std::make_shared<std::string>();
   OptionGroup group(*command);
   auto* output = add_common(group, "--output", *share,

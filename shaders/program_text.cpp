@@ -301,9 +301,8 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
     // WGSL has no overloads, but vec3f() of a number and of a vector.
     const std::string value = is_wgsl ? fmt::format("vec4f(vec3f({}), 1.0)", source.calls[k])
                                       : fmt::format("lobelia_as_four({})", source.calls[k]);
-    calls +=
-        fmt::format("    {}{{ result = {}; }}\n",
-                    source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "", value);
+    calls += fmt::format("    {}{{ result = {}; }}\n",
+                         source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "", value);
   }
   std::string begin, text = plain_text(source);
   std::size_t version_line = 0;

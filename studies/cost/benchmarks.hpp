@@ -65,9 +65,7 @@ Table lobe_table(double exponent, int rounds, bool quick);
 /// One table per scene, by lobe and precision, rendered by one thread.
 std::vector<Table> measure_pictures(const Options& options);
 
-/// The built-in scenes, and the given ones that has_transport().
+/// The built-in scenes.
 std::vector<Table> measure_transport(const Options& options);
-/// Whether the scene has light to sample at random: area lights, a sky, a lens or inter-reflection.
-bool has_transport(const Scene& scene);
 
 }  // namespace lobelia::cost

@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/error_time_chart.hpp"
 #include "reference_scenes/engine.hpp"
-#include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render_record.hpp"
 #include "studies/cost/convergence.hpp"
 #include "studies/cost/scenes.hpp"
@@ -287,34 +286,20 @@ Table measure_scene(const std::string& id, const std::string& title, const Scene
 
 }  // namespace
 
-bool has_transport(const Scene& scene) {
-  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
-  return plan.on<effects::AreaLights>() || plan.on<effects::Environment>() ||
-         plan.on<effects::Glossy>() || plan.on<effects::DepthOfField>();
-}
-
 std::vector<Table> measure_transport(const Options& options) {
   const int side = options.rounds(48, 96, 192);
   TransportEngine engine(options);
   std::vector<Table> tables;
-  const auto add = [&](const std::string& id, const std::string& title, const Scene& scene,
-                       TransportEngine* by, const std::string& why_not) {
-    tables.push_back(measure_scene(id, title, scene, by, options));
-    if (!by) tables.back().remarks.push_back(fmt::format("without {}: {}", engine.title, why_not));
+  const auto add = [&](const char* id, const char* title, const Scene& scene) {
+    Table& table =
+        tables.emplace_back(measure_scene(id, title, scene, engine ? &engine : nullptr, options));
+    if (!engine)
+      table.remarks.push_back(fmt::format("without {}: {}", engine.title, engine.why_not));
   };
-  const auto add_built_in = [&](const char* id, const char* title, const Scene& scene) {
-    add(id, title, scene, engine ? &engine : nullptr, engine.why_not);
-  };
-  add_built_in("rectangle_light", "A sphere on a plane below a rectangle of light",
-               below_rectangle(side));
-  add_built_in("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
-  add_built_in("inter_reflection",
-               "Below the rectangle, with light that goes from surface to surface",
-               with_inter_reflection(below_rectangle(side)));
-  for (const NamedScene& given : options.scenes)
-    if (has_transport(given.scene))
-      add(given.name, given.name, with_film(given.scene, side), nullptr,
-          "only the built-in scenes are told to it in this way");
+  add("rectangle_light", "A sphere on a plane below a rectangle of light", below_rectangle(side));
+  add("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
+  add("inter_reflection", "Below the rectangle, with light that goes from surface to surface",
+      with_inter_reflection(below_rectangle(side)));
   return tables;
 }
 

@@ -92,7 +92,8 @@ TEST(Completion, KnowsEveryCommandAndOptionInBash) {
     for (const std::string& name : options(command)) EXPECT_TRUE(of_dash.contains(name)) << name;
   }
   EXPECT_EQ(completed("lobelia rend"), std::set<std::string>{"render"});
-  EXPECT_EQ(completed("lobelia render --effects "), (std::set<std::string>{"all", "as-called-for"}));
+  EXPECT_EQ(completed("lobelia render --effects "),
+            (std::set<std::string>{"all", "as-called-for"}));
   // Options of the command before the last one.
   EXPECT_FALSE(completed("lobelia farm status --").contains("--effects"));
 }
