@@ -20,12 +20,8 @@ struct LobeErrors {
 struct CostFacts {
   std::optional<Operations> operations;
   std::optional<LobeErrors> shape, rounding;
-  std::optional<std::size_t> numbers_looked_at;
-  std::optional<int> samples;
-  std::string kernel;
   std::optional<double> predicted_cost;
   std::optional<Rays> rays;
-  std::optional<double> seconds_of_tiny_call;
 };
 
 struct CostVariant {

@@ -42,14 +42,6 @@ Image sky() {
 
 }  // namespace
 
-Scene with_film(Scene scene, int side) {
-  Film& film = scene.film;
-  const double scale = double(side) / std::max(film.width, film.height);
-  film.width = std::max(1, int(scale * film.width + 0.5));
-  film.height = std::max(1, int(scale * film.height + 0.5));
-  return scene;
-}
-
 Scene sphere_on_plane(int side) {
   Scene scene;
   scene.camera = {{0.6, 3.4, 5.2}, {0.1, -0.4, 0}, {0, 1, 0}, 32};

@@ -1,14 +1,9 @@
-// Scenes that are measured, and changes to scenes.
+// Scenes lit by areas, which engines render with their own light transport.
 #pragma once
 
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::cost {
-
-/// The scene with the longer side of its picture as given, in the same proportions.
-Scene with_film(Scene scene, int side);
-
-// Scenes lit by areas, which engines render with their own light transport.
 
 /// A matt sphere on a matt plane, seen from above so that the plane fills the picture. No light yet.
 Scene sphere_on_plane(int side);

@@ -131,13 +131,10 @@ class TransportEngine {
 
 void measure_engine(TransportEngine& by, const Scene& scene, int seed, const Converged& truth,
                     Series& series) {
-  // The fixed cost of a call: of this scene, which Cycles prepares anew for each picture.
-  const double tiny_seconds = by.render(with_film(scene, 8), 1, 1).record.seconds.total;
   for (Point& point : series.points) {
     const ReferenceResult result = by.render(scene, point.samples, std::uint64_t(seed));
     point.seconds.push_back(result.record.seconds.total);
     point.errors.push_back(rms_of_difference(result.image, truth.image));
-    point.facts.seconds_of_tiny_call = tiny_seconds;
   }
 }
 
