@@ -1,21 +1,22 @@
 // FLIP's colours, and its error from filtered ones. Compiled once for each instruction set, like the files that include it.
 #include <hwy/highway.h>
 
-#include "compare/metrics/flip_kernels.hpp"
+#include "compare/metrics/flip_filters.hpp"
 
-#if defined(LOBELIA_COMPARE_METRICS_FLIP_ERROR_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_COMPARE_METRICS_FLIP_ERROR_INL_HPP
-#undef LOBELIA_COMPARE_METRICS_FLIP_ERROR_INL_HPP
+#if defined(LOBELIA_COMPARE_METRICS_FLIP_PIXELS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_COMPARE_METRICS_FLIP_PIXELS_INL_HPP
+#undef LOBELIA_COMPARE_METRICS_FLIP_PIXELS_INL_HPP
 #else
-#define LOBELIA_COMPARE_METRICS_FLIP_ERROR_INL_HPP
+#define LOBELIA_COMPARE_METRICS_FLIP_PIXELS_INL_HPP
 #endif
+
+#include "compare/metrics/flip_filters-inl.hpp"
 
 // Pictures are filtered in float64, so that differences of almost equal pixels and of almost equal features are not
 // rounding noise, which the powers would enlarge. From the differences on, float32 is enough: everything is a product
 // with them, so that an error is relative.
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kFlipBlock>;
 using Lanes = hn::Vec<Floats>;
 using HalfFloats = hn::Half<Floats>;
@@ -264,6 +265,17 @@ void colours_lanes(const float* rgb, const FlipColours& out, std::size_t count) 
   }
 }
 
+void block_logs_lanes(const FlipFilters& filters, const FlipRows& a, const FlipRows& b,
+                      std::size_t block, const FlipTapsDown& taps, float* logs,
+                      std::size_t stride) {
+  alignas(64) FlipFiltered of_a, of_b;
+  filter_down(filters, a, block, taps, of_a);
+  filter_down(filters, b, block, taps, of_b);
+  for (std::size_t row = 0; row < taps.rows; ++row)
+    for (std::size_t column = 0; column < kFlipBlock; column += hn::Lanes(Floats()))
+      hn::StoreU(log_of_error(of_a, of_b, row, column), Floats(), logs + row * stride + column);
+}
+
 void errors_of_lanes(float* logs, std::size_t count) {
   const Floats d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d))
@@ -273,4 +285,4 @@ void errors_of_lanes(float* logs, std::size_t count) {
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // LOBELIA_COMPARE_METRICS_FLIP_ERROR_INL_HPP
+#endif  // LOBELIA_COMPARE_METRICS_FLIP_PIXELS_INL_HPP
