@@ -24,7 +24,7 @@ space     = $(subst ,, )
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-details bench-compare fuzz chaos lint docs install uninstall package clean
+.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-compare fuzz chaos lint docs install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -108,11 +108,6 @@ bench: ## measures each goal of speed beside what it is held to, in one table; Q
 	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick) \
 	    --commit "$$(git describe --always --dirty=+ --exclude='*')" --committed "$$(git log -1 --format=%cs)" --keep "$(BENCH)"
 
-bench-details: ## times of lobes, lights, comparisons, files and engines, in many tables
-	$(setup) build engines
-	$(configure)
-	$(build) --target run_bench_details
-
 bench-compare: ## what became slower or faster since the commit BASE, both builds in turn
 	$(setup) build
 	$(configure)
@@ -144,8 +139,10 @@ ifeq ($(TIDY),yes)
 endif
 
 docs: ## writes docs/ as a site to out/docs, with a search; no network is needed to read it
-	$(setup) docs
-	@scripts/docs out/docs
+	$(setup) build docs
+	$(configure)
+	$(build) --target lobelia
+	@LOBELIA_PROGRAM="build/$(PRESET)/bin/lobelia" scripts/docs out/docs
 
 install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
 	$(setup) build

@@ -4,7 +4,8 @@
 #include <regex>
 
 #include "bench/goals.hpp"
-#include "bench/sections.hpp"
+#include "bench/inputs.hpp"
+#include "core/timing.hpp"
 #include "lobelia_paths.hpp"
 
 namespace lobelia::bench {

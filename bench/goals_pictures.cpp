@@ -1,20 +1,14 @@
-// Kernels beside POV-Ray's tracing, beside a loop written by hand, and on several threads.
+// Kernels beside POV-Ray's tracing, and on several threads.
 #include <fmt/format.h>
 #include <hwy/highway.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <queue>
 #include <regex>
 
 #include "bench/goals.hpp"
-#include "bench/hand_written.hpp"
-#include "bench/sections.hpp"
+#include "bench/inputs.hpp"
 #include "core/files.hpp"
-#include "core/threads.hpp"
+#include "core/timing.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -29,16 +23,13 @@ constexpr int kSide = 1024;
 struct InstructionSet {
   const char *name, *title;
   std::int64_t targets;
-  HandWritten::Set set;
 };
-constexpr InstructionSet kSets[] = {
-    {"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3, HandWritten::Set::kAvx2},
-    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3, HandWritten::Set::kAvx512}};
+constexpr InstructionSet kSets[] = {{"avx2", "AVX2", HWY_AVX2 | HWY_SSSE3},
+                                    {"avx512", "AVX-512", HWY_AVX3 | HWY_AVX2 | HWY_SSSE3}};
 
-Scene head_on(std::string_view lobe, int side) {
+Scene head_on(int side) {
   Scene scene = read_scene(scene_file("head_on"));
   scene.film.width = scene.film.height = side;
-  scene.materials[0].highlight.lobe = *find_lobe(lobe);
   return scene;
 }
 
@@ -91,115 +82,25 @@ class PovRayTrace {
   fs::path input_;
 };
 
-/// Seconds until the last of `cores` ends, if each takes the next task when it is free.
-double makespan(const std::vector<double>& tasks, int cores) {
-  std::priority_queue<double, std::vector<double>, std::greater<>> free(
-      {}, std::vector<double>(std::size_t(cores)));
-  double end = 0;
-  for (const double task : tasks) {
-    const double done = free.top() + task;
-    free.pop();
-    free.push(done);
-    end = std::max(end, done);
-  }
-  return end;
-}
-
-/// Seconds that the scheduler takes for a task of its own, with one thread.
-double task_overhead() {
-  constexpr int kTasks = 10000;
-  std::atomic<int> ran{0};
-  const double seconds = seconds_of([&] {
-    ThreadLimit(1).run([&] {
-      oneapi::tbb::parallel_for(
-          0, kTasks, [&](int) { ++ran; }, oneapi::tbb::simple_partitioner());
-    });
-  });
-  return seconds / ran;
-}
-
-/// Wall time of tasks that write to each page of a new picture and then wait for `seconds`, all on one thread together:
-/// what memory, oneTBB and the system leave of two threads. A first write makes the system clear a page, which two
-/// processors do hardly faster than one; and a thread that sleeps begins some time after it is woken.
-double limit_seconds(int side, double seconds, int threads) {
-  constexpr int kTasks = 512;
-  constexpr std::size_t kFloatsOfPage = 1024;
-  Image image(side, side);
-  const std::span<float> values = image.values();
-  const std::size_t part = values.size() / kTasks;
-  return seconds_of([&] {
-    ThreadLimit(threads).run([&] {
-      oneapi::tbb::parallel_for(0, kTasks, [&](int task) {
-        for (std::size_t i = 0; i < part; i += kFloatsOfPage)
-          values[std::size_t(task) * part + i] = 1;
-        const auto end =
-            std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds / kTasks);
-        while (std::chrono::steady_clock::now() < end) {
-        }
-      });
-    });
-  });
-}
-
-/// A schedule of 64 cores, from times of the renderer's tasks that were taken by one thread.
-void add_simulated_goal(Goals& goals, const std::shared_ptr<const Scene>& scene) {
-  constexpr int kCores = 64;
-  const int side = scene->film.width;
-  const auto renderer =
-      std::make_shared<FusedRenderer>(*scene, make_plan(*scene, EffectPolicy::kAsCalledFor));
-  const auto image = std::make_shared<Image>(side, side);
-  goals.add({fmt::format("threads.simulated.{}", side),
-             fmt::format("{0} cores, {1} x {1}, times their number", kCores, side), "s",
-             "one thread; the cores are simulated", true, 0.9, 15, 7, [=] {
-               const int rows = FusedRenderer::rows_of_task(side);
-               const double overhead = task_overhead();
-               // The least of some runs, because one interruption is as long as many tasks.
-               std::vector<double> tasks(std::size_t((side + rows - 1) / rows), 1e9);
-               for (int run = 0; run < 5; ++run)
-                 for (std::size_t t = 0; t < tasks.size(); ++t) {
-                   const int y = int(t) * rows;
-                   float* const to = image->values().data() + std::size_t(3) * side * y;
-                   tasks[t] = std::min(tasks[t], seconds_of([&] {
-                                         renderer->render_rows(y, std::min(side, y + rows), to);
-                                       }));
-                 }
-               double one = 0;
-               for (double& task : tasks) one += task, task += overhead;
-               return Round{kCores * makespan(tasks, kCores), one};
-             }});
-}
-
 }  // namespace
 
 void add_kernel_goals(const Tools& tools, Goals& goals) {
-  const bool has_povray = !find_program("povray").empty();
-  std::shared_ptr<PovRayTrace> povray;
-  if (has_povray) povray = std::make_shared<PovRayTrace>(tools, head_on("cosine", kSide));
+  if (find_program("povray").empty()) {
+    goals.leave_out("kernel", "no POV-Ray here");
+    return;
+  }
+  const Scene scene = head_on(kSide);
+  const auto povray = std::make_shared<PovRayTrace>(tools, scene);
   for (const InstructionSet& set : kSets) {
+    const std::string id = fmt::format("kernel.{}.cosine", set.name);
     if (!(hwy::SupportedTargets() & set.targets & -set.targets & (HWY_AVX2 | HWY_AVX3))) {
-      goals.leave_out(fmt::format("kernel.{}", set.name), "this processor does not have it");
+      goals.leave_out(id, "this processor does not have it");
       continue;
     }
-    const auto cosine = std::make_shared<OneThread>(head_on("cosine", kSide), set.targets);
-    if (povray)
-      goals.add({fmt::format("kernel.{}.cosine", set.name),
-                 fmt::format("head-on, cosⁿ, 1024 x 1024, {}", set.title), "s", "POV-Ray's tracing",
-                 true, 100, 5, 3, [=] {
-                   return Round{cosine->seconds(), povray->seconds()};
-                 }});
-    else
-      goals.leave_out(fmt::format("kernel.{}.cosine", set.name), "no POV-Ray here");
-    const auto cs16 = std::make_shared<OneThread>(head_on("cs16", kSide), set.targets);
-    const auto by_hand = std::make_shared<HandWritten>(set.set, kSide);
-    goals.add({fmt::format("kernel.{}.cs16", set.name),
-               fmt::format("head-on, cs16, 1024 x 1024, {}", set.title), "s",
-               "a loop written by hand", true, 0.75, 25, 9, [=] {
-                 return Round{cs16->seconds(), by_hand->seconds()};
-               }});
-    goals.add({fmt::format("kernel.{}.by_hand", set.name),
-               fmt::format("the loop written by hand, {}", set.title), "s",
-               "its arithmetic and stores alone", true, 0.8, 25, 9, [=] {
-                 return Round{by_hand->seconds(), by_hand->roofline_seconds()};
+    const auto ours = std::make_shared<OneThread>(scene, set.targets);
+    goals.add({id, fmt::format("head-on, cosⁿ, 1024 x 1024, {}", set.title), "s",
+               "POV-Ray's tracing", true, 100, 5, 3, [=] {
+                 return Round{ours->seconds(), povray->seconds()};
                }});
   }
 }
@@ -207,7 +108,7 @@ void add_kernel_goals(const Tools& tools, Goals& goals) {
 void add_thread_goals(const Tools&, Goals& goals) {
   const int processors = oneapi::tbb::info::default_concurrency();
   for (const int side : {1024, 4096}) {
-    const auto scene = std::make_shared<Scene>(head_on("cosine", side));
+    const auto scene = std::make_shared<Scene>(head_on(side));
     // Every pixel of the disc is computed.
     scene->materials[0].diffuse_reflectance = {0.5, 0.5, 0.5};
     // The least of three, as a thread that sleeps may begin milliseconds late.
@@ -227,18 +128,6 @@ void add_thread_goals(const Tools&, Goals& goals) {
                  const double one = seconds(1);
                  return Round{processors * seconds(processors), one};
                }});
-    goals.add({fmt::format("threads.limit.{}", side),
-               fmt::format("{0} threads, {1} x {1}", processors, side), "s",
-               "they write new memory, then wait", true, 0.93, 15, 7, [=] {
-                 warm_up();
-                 const double one = seconds(1), ours = seconds(processors);
-                 const auto limit = [&](double waits, int threads) {
-                   return least_seconds(3, [&] { return limit_seconds(side, waits, threads); });
-                 };
-                 const double waits = std::max(0.0, one - limit(0, 1));
-                 return Round{ours, limit(waits, processors)};
-               }});
-    add_simulated_goal(goals, scene);
   }
 }
 

@@ -1,10 +1,9 @@
 // The start of the program: beside an empty one with the same libraries, and beside POV-Ray's whole command.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include "bench/goals.hpp"
 #include "bench/inputs.hpp"
-#include "bench/sections.hpp"
+#include "core/timing.hpp"
 
 namespace lobelia::bench {
 namespace {
@@ -22,18 +21,6 @@ double seconds_for(const std::vector<std::string>& command, const ProcessOptions
   return summary(all).median;
 }
 
-/// Page faults of a command, and of the process that runs it.
-long page_faults(const std::vector<std::string>& command) {
-  const auto so_far = [] {
-    rusage usage{};
-    ::getrusage(RUSAGE_CHILDREN, &usage);
-    return usage.ru_minflt + usage.ru_majflt;
-  };
-  const long before = so_far();
-  run(command);
-  return so_far() - before;
-}
-
 }  // namespace
 
 void add_start_goals(const Tools& tools, Goals& goals) {
@@ -45,27 +32,14 @@ void add_start_goals(const Tools& tools, Goals& goals) {
   const auto render = [=](int side) {
     return render_command(program, "head_on", side, side, tools.scratch / "start.exr");
   };
-  // A larger program takes more page faults, and its files wait for the disk. A program that becomes larger still is held
-  // by the goal beside the empty program alone.
   const auto add = [&](const std::string& id, const std::string& what,
-                       const std::vector<std::string>& command,
-                       const std::vector<std::string>& files) {
+                       const std::vector<std::string>& command) {
     goals.add({id, what, "s", "an empty program with its libraries", false, 1, 9, 5, [=] {
                  return Round{seconds_for(command), seconds_for(loading)};
                }});
-    goals.add({"start.limit." + id.substr(id.find('.') + 1), what, "s",
-               files.empty() ? "that with its page faults" : "that with its page faults and files",
-               false, 1.25, 9, 5, [=] {
-                 std::vector<std::string> limit = loading;
-                 limit.push_back(
-                     std::to_string(std::max(0L, page_faults(command) - page_faults(loading))));
-                 limit.insert(limit.end(), files.begin(), files.end());
-                 return Round{seconds_for(command), seconds_for(limit)};
-               }});
   };
-  add("start.version", "lobelia --version", {program, "--version"}, {});
-  add("start.render", "lobelia render, 64 x 64", render(64),
-      {tools.scratch / "flushed.exr", tools.scratch / "flushed.json"});
+  add("start.version", "lobelia --version", {program, "--version"});
+  add("start.render", "lobelia render, 64 x 64", render(64));
   if (find_program("povray").empty()) {
     goals.leave_out("start.whole", "no POV-Ray here");
     return;

@@ -1,12 +1,18 @@
-// The limits of farms of 1e6 cells and 1e8 cells on 1000 nodes: measured as far as this machine allows, simulated beyond.
-// docs/scale.md has the results and conclusions.
+// The limits of crowds of spheres, and of farms of 1e6 cells and 1e8 cells on 1000 nodes: measured as far as this machine
+// allows, simulated beyond.
+// docs/scale.md has the conclusions.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <queue>
 #include <random>
@@ -18,11 +24,55 @@
 #include "farm/farm.hpp"
 #include "farm/result_cache.hpp"
 #include "farm/slurm/slurm_farm.hpp"
+#include "renderer/accelerator.hpp"
+#include "renderer/render.hpp"
 
 namespace lobelia::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Bytes of memory that this process holds now.
+double resident_bytes() {
+  std::int64_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return double(resident) * double(::sysconf(_SC_PAGESIZE));
+}
+
+void measure_crowd(CrowdKind kind, const char* title) {
+  constexpr int kSide = 256, kSamples = 16;
+  fmt::print(
+      "\n{}: {} x {}, {} samples, one lamp with shadows, {} threads, median of 5\n"
+      "{:>10} {:>13} {:>9} {:>9} {:>9} {:>16}\n",
+      title, kSide, kSide, kSamples, oneapi::tbb::info::default_concurrency(), "spheres",
+      "bytes of each", "plan s", "build s", "render s", "ns a camera ray");
+  for (const auto& lattice :
+       {std::array{10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}, {200, 200, 100}}) {
+    Scene scene = crowd(kind, lattice, kSide);
+    scene.sampler.sample_count = kSamples;
+    ::malloc_trim(0);  // what was released before would be counted as well
+    const double without = resident_bytes();
+    auto accelerator = std::make_unique<Accelerator>(scene.spheres);
+    const double bytes =
+        sizeof(Sphere) + (resident_bytes() - without) / double(scene.spheres.size());
+    accelerator.reset();
+    std::vector<double> plan, build, trace;
+    double rays = 0;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      const RenderResult result = render(scene, {});
+      plan.push_back(result.plan_seconds);
+      build.push_back(result.build_seconds);
+      trace.push_back(result.render_seconds - result.build_seconds);
+      rays = double(result.work.camera_rays);
+    }
+    // Below that, what a few pages more or less hold would be counted.
+    constexpr std::size_t kCountable = 100000;
+    const double seconds = summary(trace).median;
+    fmt::print("{:>10} {:>13} {:>9.4f} {:>9.4f} {:>9.4f} {:>16.0f}\n", scene.spheres.size(),
+               scene.spheres.size() >= kCountable ? fmt::format("{:.0f}", bytes) : "",
+               summary(plan).median, summary(build).median, seconds, 1e9 * seconds / rays);
+  }
+}
 
 Grid grid_of(const fs::path& directory, int cells) {
   constexpr int kMaxExponents = 10000;
@@ -261,6 +311,10 @@ void very_large_simulation() {
 int main() {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   using namespace lobelia;
+  bench::measure_crowd(bench::CrowdKind::kPacked,
+                       "Packed crowd, spheres of 0.4 times their spacing");
+  bench::measure_crowd(bench::CrowdKind::kThin,
+                       "Thin crowd, a ray through it meets half a sphere on average");
   const TemporaryDirectory directory;
   bench::planning(directory.path());
   bench::caching(directory.path());

@@ -143,8 +143,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
   OptionGroup output(*command, "Output");
   add_json(output, options->json, "shader-check");
   output.add("--html", options->html, "FILE", "Write a page with spheres and a plot");
-  output.add_flag("--no-costs", options->no_costs,
-                  "Measure neither half floats, nor instructions, nor time");
+  output.add_flag("--no-costs", options->no_costs, "Measure neither half floats nor instructions");
   command->footer(
       "The shader runs in a process of its own, on the first graphics processor that has a driver, or\n"
       "else on Mesa's software renderers. docs/check_shader.md is a tutorial, and lists the mistakes\n"

@@ -50,8 +50,7 @@ std::string why_unseen(const PairReport& pair, const CompareJob& job) {
   if (!comparison.mask_of.empty()) return "a part was judged by itself (--mask or --scene)";
   if (job.noise.has_replicates()) return "the mean of several pictures was compared";
   const PictureSource &a = pair.sources->a, &b = pair.sources->b;
-  if (a.gain_map == "left out" || b.gain_map == "left out")
-    return "the gain map was not compared (--base-only)";
+  if (a.has_gain_map || b.has_gain_map) return "the gain map was not compared";
   const auto& common = pair.layers->common;
   NotCompared left = pair.layers->not_compared;
   // The smaller levels are made of the first.

@@ -1,14 +1,10 @@
-#include <algorithm>
-
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
 #include "core/files.hpp"
-#include "core/host.hpp"
 #include "records/record.hpp"
-#include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/table.hpp"
@@ -24,29 +20,15 @@ struct CostArguments {
   WorkLimits limits;
 };
 
-/// The levels named by --level, or all that have something to measure.
-std::vector<const cost::Benchmark*> chosen_levels(const CostArguments& options) {
-  std::vector<const cost::Benchmark*> chosen;
-  for (const cost::Benchmark& level : cost::benchmarks()) {
-    const bool named = std::ranges::count(options.levels, level.name) > 0;
-    const bool lacks_scene = level.needs_scenes && options.scenes.empty();
-    if (named && lacks_scene)
-      throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", level.name));
-    if (named || (options.levels.empty() && !lacks_scene)) chosen.push_back(&level);
-  }
-  return chosen;
-}
-
 void run_cost(const CostArguments& options) {
-  const auto levels = chosen_levels(options);
+  const auto levels = cost::chosen_benchmarks(options.levels, !options.scenes.empty());
   cost::Options measured;
   for (const std::string& file : options.scenes)
     measured.scenes.push_back({std::filesystem::path(file).stem().string(), read_scene(file)});
   measured.effort = options.quick      ? cost::Effort::kQuick
                     : options.thorough ? cost::Effort::kThorough
                                        : cost::Effort::kUsual;
-  for (const auto& [engine, program] : options.programs.given())
-    measured.programs.emplace_back(engine, program.string());
+  measured.programs = options.programs.given();
   OutputFiles outputs;
   for (const std::string& file : options.scenes) outputs.reads(file);
   outputs.writes_report(options.json);
@@ -55,22 +37,21 @@ void run_cost(const CostArguments& options) {
     require_writable(std::filesystem::path(options.directory) / "cost.json");
   }
   ProgressLine line;
-  records::Cost report{command_line(), records::this_host(), kernels().instruction_set, {}};
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double done = double(i) / double(levels.size());
-    measured.on_progress = [&](const std::string& what) {
-      line.show(done, fmt::format("{}: {}", levels[i]->name, what));
-    };
-    measured.progress("begins");
-    for (cost::Table& table : levels[i]->measure(measured)) {
-      cost::add_fronts(table);
-      report.tables.push_back(std::move(table));
-    }
-  }
+  measured.on_progress = [&](double done, const std::string& what) { line.show(done, what); };
+  const records::Cost report = cost::measure(levels, measured, command_line());
   line.clear();
   FilesTogether files;
   if (!options.directory.empty()) cost::write_cost(report, options.directory);
   write_reports(cost::cost_text(report, options.all), {{options.json, record_text(report)}}, files);
+}
+
+/// The levels that there were, and what to type now.
+std::string hint_of_old_level(const std::string& level) {
+  if (level == "fixed-point")
+    return "fixed-point is gone; use lobelia search --precision fixed:BITS";
+  if (level == "engine") return "engine is gone; use lobelia verify references, and make bench";
+  if (level == "effects") return "effects is gone; compare pictures of two scenes";
+  return "";
 }
 
 std::string level_lines() {
@@ -91,6 +72,7 @@ void add_cost(CLI::App& app, ExitCode&) {
   std::vector<std::string> names;
   for (const cost::Benchmark& level : cost::benchmarks()) names.emplace_back(level.name);
   command->add_option("--level", options->levels, "Measure this level alone; may be given again")
+      ->check(&hint_of_old_level)
       ->check(CLI::IsMember(names))
       ->expected(1)
       ->take_all()

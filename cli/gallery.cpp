@@ -1,51 +1,27 @@
-// lobelia gallery RUN, lobelia gallery publish RUN -o OUT, lobelia gallery serve DIR
+// lobelia gallery RUN, lobelia gallery publish RUN -o OUT
 #include "gallery/gallery.hpp"
 
 #include <fmt/format.h>
-
-#include <cerrno>
-#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/messages.hpp"
 #include "cli/publish.hpp"
-#include "core/interrupt.hpp"
 #include "core/text.hpp"
-#include "gallery/preview_server.hpp"
 #include "gallery/publication.hpp"
 
 namespace lobelia::cli {
 namespace {
 
-void add_serve(CLI::App& gallery) {
-  auto* command = gallery.add_subcommand("serve", "Look at a gallery through a small web server");
-  auto directory = std::make_shared<std::string>();
-  auto place = std::make_shared<gallery::PreviewPlace>();
-  command->add_option("DIR", *directory, "The directory that 'lobelia gallery' wrote")->required();
-  command->add_option("--port", place->port, "Port; 0 is any free one")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--listen", place->address,
-          "IPv4 address to listen on; 0.0.0.0 is every one of this machine. Warns if others can reach it")
-      ->type_name("ADDRESS")
-      ->capture_default_str();
-  command->footer(
-      "Prints the address and serves until Ctrl-C: GET and HEAD, to this machine alone unless --listen says\n"
-      "otherwise. A gallery needs no server; this is for seeing one as a server will give it.\n\n"
-      "Example: lobelia gallery serve out/gallery");
-  command->callback([directory, place] {
-    end_by_ourselves_when_interrupted();  // Ctrl-C stops the server
-    gallery::serve_site(*directory, *place, [&](const std::string& url) {
-      if (place->is_open())
-        warn(fmt::format("whoever reaches {} can read all files of {}, without a password", url,
-                         printable_path(*directory)));
-      fmt::print("{}\n", url);
-      if (std::fflush(stdout) != 0)  // otherwise the address would be lost
-        throw std::system_error(errno, std::generic_category(), "standard output");
-    });
+/// Says for one version what replaces the command.
+void add_removed_serve(CLI::App& gallery) {
+  auto* command = gallery.add_subcommand("serve", "Removed");
+  command->group("");
+  command->prefix_command();
+  command->callback([] {
+    throw Error(ExitCode::kUsage,
+                "'gallery serve' was removed: type python3 -m http.server --bind 127.0.0.1 in the "
+                "gallery's directory");
   });
 }
 
@@ -83,15 +59,14 @@ void write_site(const std::string& run, const gallery::GalleryOptions& options, 
 
 void add_publish(CLI::App& gallery, ExitCode& exit_code) {
   auto* command = gallery.add_subcommand(
-      "publish", "Write a gallery for others: a folder for a web server, a zip, or one HTML file");
+      "publish", "Write a gallery for others: a folder for a web server, or one HTML file");
   auto run = std::make_shared<std::string>();
   auto options = std::make_shared<gallery::GalleryOptions>();
   auto with_host = std::make_shared<bool>(false);
   command->add_option("RUN", *run, "The directory that 'lobelia farm' wrote")->required();
   OptionGroup group(*command);
   add_common(group, "--output", options->site,
-             ": a zip if it ends in .zip, one HTML file if it ends in .html, otherwise a folder",
-             "OUT")
+             ": one HTML file if it ends in .html, otherwise a folder", "OUT")
       ->required();
   add_site_options(*command, group, options);
   command->add_option("--cell", options->only_cell,
@@ -102,8 +77,8 @@ void add_publish(CLI::App& gallery, ExitCode& exit_code) {
   limits->add_to(group);
   command->footer(fmt::format(
       "Writes what 'lobelia gallery' does, and prints its path. A folder has .nojekyll, and its script and\n"
-      "style are named by their content. Absolute paths become their last part; names of hosts and users, and\n"
-      "process IDs, are left out. Every hash in a cell.json is of the published file. RUN is not changed.\n"
+      "style are named by their content. Absolute paths become their file's name. Texts with names of hosts or\n"
+      "users, process IDs or other paths are left out. Every hash in a cell.json is of the published file. RUN is not changed.\n"
       "OUT gets its name when it is whole; in a folder that was published before, each file does.\n\n"
       "One HTML file holds up to {} cells and {} MiB, and has no pages of studies and no files to download.\n\n"
       "Exit codes: 0 published, 1 published, but some cell is not what the farm wrote or is worse than in the\n"
@@ -111,7 +86,7 @@ void add_publish(CLI::App& gallery, ExitCode& exit_code) {
       "something else, or would be larger than its form allows.\n\n"
       "Examples:\n"
       "  lobelia gallery publish run -o site\n"
-      "  lobelia gallery publish run -o site.zip --metrics-only\n"
+      "  lobelia gallery publish run -o site --metrics-only\n"
       "  lobelia gallery publish run -o cell.html --cell phong_rdf-n16",
       gallery::kMostCellsOfPage, gallery::kMostBytesOfPage >> 20));
   command->callback([run, options, with_host, limits, &exit_code] {
@@ -126,7 +101,7 @@ void add_gallery(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("gallery", "Draw a farm's records as a static site");
   auto run = std::make_shared<std::string>();
   auto options = std::make_shared<gallery::GalleryOptions>();
-  // Not required by the parser, which would ask for it with 'serve' too.
+  // Not required by the parser, which would ask for it with 'publish' too.
   command->add_option("RUN", *run, "The directory that 'lobelia farm' wrote");
   OptionGroup group(*command);
   add_common(group, "--output", options->site, ": the site; by default RUN itself", "DIR");
@@ -144,12 +119,11 @@ void add_gallery(CLI::App& app, ExitCode& exit_code) {
       "Examples:\n"
       "  lobelia farm sphere_grid.xml -o run\n"
       "  lobelia gallery run -o site\n"
-      "  lobelia gallery run -o site --baseline last_week --baseline yesterday\n"
-      "  lobelia gallery serve site");
+      "  lobelia gallery run -o site --baseline last_week --baseline yesterday");
   auto limits = std::make_shared<WorkLimits>();
   limits->add_to(group);
   add_publish(*command, exit_code);
-  add_serve(*command);
+  add_removed_serve(*command);
   command->callback([command, run, options, limits, &exit_code] {
     if (!command->get_subcommands().empty()) return;
     if (run->empty()) throw CLI::RequiredError("RUN");

@@ -15,8 +15,6 @@ Files manual(const std::vector<CommandRow>& commands) {
   for (const CommandRow& command : commands)
     files[fmt::format("man/man1/{}.1", man_name(command))] = man_page(command, commands);
   files["bash-completion/completions/lobelia"] = bash_completion(commands);
-  files["zsh/site-functions/_lobelia"] = zsh_completion(commands);
-  files["fish/vendor_completions.d/lobelia.fish"] = fish_completion(commands);
   return files;
 }
 
@@ -38,8 +36,8 @@ void write(const Files& files, const std::filesystem::path& directory) {
 }  // namespace
 
 void add_manual(CLI::App& app, ExitCode&) {
-  auto* command = app.add_subcommand(
-      "manual", "Write man pages, and completions for bash, zsh and fish, into a directory");
+  auto* command =
+      app.add_subcommand("manual", "Write man pages, and completions for bash, into a directory");
   auto share = std::make_shared<std::string>(), docs = std::make_shared<std::string>();
   OptionGroup group(*command);
   auto* output = add_common(group, "--output", *share,

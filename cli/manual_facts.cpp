@@ -48,7 +48,7 @@ const std::vector<Fact> kEnvironment = {
      "otherwise it is /tmp"},
     {"XDG_CACHE_HOME", "parent of lobelia/file-hashes-HOST.json; otherwise it is ~/.cache"},
     {"HOME", "where ~/.cache is"},
-    {"USER, LOGNAME", "names that lobelia gallery publish takes out"},
+    {"USER, LOGNAME", "a sentence with such a name is left out by lobelia gallery publish"},
     {"XDG_CONFIG_HOME, TMP, TEMP",
      "not read; in an engine they name a directory of its own, as HOME, XDG_CACHE_HOME and TMPDIR do"},
     {"PATH", "where engines are looked for; engines get it"},

@@ -35,11 +35,9 @@ struct CommandRow {
 /// The program and all commands, each before its own subcommands.
 std::vector<CommandRow> command_rows(const CLI::App& program);
 
-/// Pages for man(1) and scripts that complete `lobelia` in a shell.
+/// Pages for man(1) and a script that completes `lobelia` in bash.
 std::string man_page(const CommandRow& command, const std::vector<CommandRow>& all);
 std::string bash_completion(const std::vector<CommandRow>& all);
-std::string zsh_completion(const std::vector<CommandRow>& all);
-std::string fish_completion(const std::vector<CommandRow>& all);
 
 /// A row of a table that people look up, such as an exit code.
 struct Fact {

@@ -46,9 +46,15 @@ void add_reading_options(CLI::App& command) {
   command.add_flag_callback(
       "--any-format", [] { read_any_picture_format(); },
       fmt::format("Read every format that OpenImageIO knows, not only {}", kPictureFormats));
-  command.add_flag_callback(
-      "--base-only", [] { read_base_pictures(); },
-      "Of a JPEG with a gain map read the picture without it (SDR)");
+  // Was removed, and hidden here says what to do.
+  command
+      .add_flag_callback("--base-only",
+                         [] {
+                           throw Error(ExitCode::kUsage,
+                                       "--base-only was removed: gain maps are not applied any "
+                                       "more; leave it out");
+                         })
+      ->group("");
 }
 
 std::size_t chosen_place(const std::string& value, std::string_view option,

@@ -59,7 +59,7 @@ class OptionGroup {
   std::string heading_;
 };
 
-/// --any-format and --base-only, for commands that read pictures from other programs.
+/// --any-format, for commands that read pictures from other programs.
 void add_reading_options(CLI::App& command);
 
 /// The position of `value` in `names`. Throws as chosen().

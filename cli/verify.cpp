@@ -63,7 +63,7 @@ void add_verify_paper(CLI::App& verify) {
 
 struct VerifyStabilityArguments {
   std::string json, pictures, lobe;
-  bool all = false, no_timing = false;
+  bool all = false;
   WorkLimits limits;
 };
 
@@ -83,11 +83,6 @@ ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
   progress.clear();
   stability::summarise(report);
   if (!options.json.empty()) report.curves = stability::error_curves();
-  // Timed on one thread, after everything else, so that our own work does not disturb it.
-  if (!options.no_timing) {
-    report.stalls = stability::measure_stalls(lobes);
-    report.price = stability::measure_prices(lobes);
-  }
   FilesTogether files;
   if (!options.pictures.empty()) {
     const auto from = std::filesystem::absolute(options.json).parent_path();
@@ -110,8 +105,6 @@ void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
             "Write a highlight by the textbook's float32 and by ours into DIR");
   group.add("--lobe", options->lobe, "LOBE", "This lobe alone, listed or not");
   group.add_flag("--all", options->all, "Print and record every case, not the worst alone");
-  group.add_flag("--no-timing", options->no_timing,
-                 "Do not measure what denormal results and precision cost");
   options->limits.add_to(group);
   command->footer(
       "naive is the textbook formula in float32 without care; in the group float16 naive and ours are\n"

@@ -5,10 +5,13 @@ set(LOBELIA_DOCS share/doc/lobelia)
 
 # Grids name their scenes as ../scenes/NAME.xml.
 install(DIRECTORY reference_scenes/scenes reference_scenes/grids DESTINATION ${LOBELIA_DATA})
-install(DIRECTORY docs/reference/ DESTINATION ${LOBELIA_DATA}/schemas FILES_MATCHING
-  PATTERN *.schema.json PATTERN *.xsd)
+# The pages and schemas of records are the program's own: cli/CMakeLists.txt makes them.
+set(reference ${PROJECT_BINARY_DIR}/reference)
+install(DIRECTORY docs/reference/ DESTINATION ${LOBELIA_DATA}/schemas FILES_MATCHING PATTERN *.xsd)
+install(DIRECTORY ${reference}/ DESTINATION ${LOBELIA_DATA}/schemas FILES_MATCHING PATTERN *.schema.json)
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${LOBELIA_DOCS} COMPONENT doc)
+install(DIRECTORY ${reference} DESTINATION ${LOBELIA_DOCS}/docs COMPONENT doc)
 
 # Builds all that is installed, and no test: `cmake --build BUILD --target installed`.
 add_custom_target(installed DEPENDS lobelia lobelia_image_io lobelia_api manual)

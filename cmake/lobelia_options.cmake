@@ -7,7 +7,7 @@ target_compile_options(lobelia_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Kernels fuse a*b+c explicitly (Highway's MulAdd). Elsewhere results must not depend on the processor.
   -ffp-contract=off)
-# The kernels need SSE4.2 (docs/decisions/0002), which every x86 processor since 2009 has. Below it Highway would add a
+# The kernels need SSE4.2 (docs/decisions/0001), which every x86 processor since 2009 has. Below it Highway would add a
 # target without vector registers.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   target_compile_options(lobelia_options INTERFACE -march=x86-64-v2)
@@ -61,7 +61,7 @@ function(lobelia_compile_quickly target room)
   endif()
 endfunction()
 
-# lobelia_module(zip USER lobelia_gallery LINK PkgConfig::LibZip): a module (core/module.hpp), built with its user. Without
+# lobelia_module(glpk USER lobelia_studies LINK ${GLPK_LIBRARY}): a module (core/module.hpp), built with its user. Without
 # SOURCES it has no code and only brings libraries. The shared library needs modules too, so all are in its package.
 function(lobelia_module name)
   cmake_parse_arguments(ARG "" "USER" "SOURCES;LINK" ${ARGN})

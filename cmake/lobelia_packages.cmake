@@ -33,11 +33,6 @@ file(CONFIGURE OUTPUT ${debian}/changelog @ONLY CONTENT
  -- @CPACK_PACKAGE_CONTACT@  @now@
 ")
 execute_process(COMMAND gzip -9nc ${debian}/changelog OUTPUT_FILE ${debian}/changelog.Debian.gz COMMAND_ERROR_IS_FATAL ANY)
-# Debian's zsh looks elsewhere below /usr than below /usr/local.
-install(CODE "if(LOBELIA_DEBIAN)
-  set(zsh \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/zsh\")
-  file(RENAME \"\${zsh}/site-functions\" \"\${zsh}/vendor-completions\")
-endif()" COMPONENT program)
 file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/triggers)
 

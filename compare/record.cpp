@@ -43,7 +43,7 @@ records::PictureRead picture_record(const PictureSource& source) {
     record.icc_profile_is_srgb = source.icc_is_srgb;
     record.icc_profile_applied = source.transfer == kByProfile;
   }
-  record.gain_map = source.gain_map;
+  if (source.has_gain_map) record.gain_map = "not applied";
   return record;
 }
 

@@ -10,4 +10,15 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
+std::string base64_decoded(std::string_view text) {
+  base64_decode_ctx context;
+  base64_decode_init(&context);
+  std::string bytes(BASE64_DECODE_LENGTH(text.size()), '\0');
+  std::size_t size = bytes.size();
+  const bool is_base64 = base64_decode_update(
+      &context, &size, reinterpret_cast<std::uint8_t*>(bytes.data()), text.size(), text.data());
+  bytes.resize(is_base64 ? size : 0);
+  return bytes;
+}
+
 }  // namespace lobelia

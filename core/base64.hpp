@@ -8,5 +8,7 @@ namespace lobelia {
 
 /// RFC 4648, section 4.
 std::string base64(std::string_view bytes);
+/// Empty if the text is none.
+std::string base64_decoded(std::string_view text);
 
 }  // namespace lobelia

@@ -33,7 +33,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-std::atomic<bool> g_on_one_thread{false}, g_any_format{false}, g_base_only{false};
+std::atomic<bool> g_on_one_thread{false}, g_any_format{false};
 
 constexpr char kStopped[] = "the decoder stopped in the middle";
 constexpr int kNotLoaded = 127;        // exit code of the dynamic linker
@@ -272,7 +272,6 @@ Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
   const fs::path& path = file.path();
   ReadingRequest request{.names_only = asked == Asked::kNames,
                          .on_one_thread = g_on_one_thread || usual_threads() == 1,
-                         .base_only = g_base_only,
                          .as_stored = asked == Asked::kStoredPicture,
                          .format = {},
                          .path = path.string(),
@@ -349,7 +348,5 @@ std::vector<std::string> layer_names(const fs::path& path) {
 void decode_contained_on_one_thread() { g_on_one_thread = true; }
 
 void read_any_picture_format(bool any) { g_any_format = any; }
-
-void read_base_pictures(bool base_only) { g_base_only = base_only; }
 
 }  // namespace lobelia

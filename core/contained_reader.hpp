@@ -1,4 +1,4 @@
-// Reads pictures from untrusted files, in processes that can do no harm (docs/decisions/0017).
+// Reads pictures from untrusted files, in processes that can do no harm (docs/decisions/0008).
 //
 // The program opens the file and recognises its format. A second program, lobelia_picture_reader, forks for each picture.
 // It loads OpenImageIO for the first that is not plain (core/plain_picture.hpp). The child gets the open file, limits, and
@@ -16,12 +16,12 @@ namespace lobelia {
 
 /// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of a file of kPictureFormats (core/picture_file.hpp)
 /// into scene-linear float RGB, grey repeated. Values are decoded by an ICC profile (core/icc_profile.hpp) or by
-/// transfer_curve(), converted to Rec. 709 primaries, brightened by a gain map (core/gain_map.hpp), and then multiplied by
-/// alpha if the file's are not. The image is the display window. The largest integer becomes 1;
+/// transfer_curve(), converted to Rec. 709 primaries, and then multiplied by alpha if the file's are not. A gain map of a JPEG
+/// is not applied. The image is the display window. The largest integer becomes 1;
 /// integers of an EXR keep their value. Of a MIP map the first level is read, of a cube map all faces.
 /// Any number of threads may call it. Throws Error(kInput) if the file is missing, not a regular file, not such a
 /// picture, truncated, over `limit`, over kMaxImageSide or kMaxImagePixels in either window, deep, CMYK or Lab, has
-/// impossible chromaticities, a damaged profile or gain map, or no such layer, crashes its decoder, or needs more memory or
+/// impossible chromaticities, a damaged profile, or no such layer, crashes its decoder, or needs more memory or
 /// time than its size justifies.
 /// Throws Error(kInterrupted) as soon as interrupted().
 Picture read_picture(const std::filesystem::path& path, const std::string& layer,
@@ -33,7 +33,7 @@ class PictureFile;
 Picture read_picture(const PictureFile& file, const std::string& layer,
                      const PictureLimit& limit = {});
 
-/// The same, but with the values that the file holds: no curve, profile, primaries, gain map or alpha is applied. A float keeps
+/// The same, but with the values that the file holds: no curve, profile, primaries or alpha is applied. A float keeps
 /// its bits. An integer of 32 bits becomes the float of the same bits, so that no two of them are the same.
 Picture read_stored_picture(const std::filesystem::path& path, const std::string& layer);
 
@@ -45,8 +45,5 @@ void decode_contained_on_one_thread();
 
 /// Whether to read any format that OpenImageIO knows, not only kPictureFormats; false at first.
 void read_any_picture_format(bool any = true);
-
-/// Whether to read pictures without their gain maps (core/gain_map.hpp); false at first.
-void read_base_pictures(bool base_only = true);
 
 }  // namespace lobelia

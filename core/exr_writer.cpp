@@ -72,8 +72,8 @@ Bytes zipped(const float* rgb, int width, int rows) {
   stream.next_out = space.packed.data();
   stream.avail_out = std::uint32_t(count);
   stream.next_in = space.steps.data();
-  // The first bytes by themselves. If more come at first, ISA-L 2.30 to 2.32 looks the third of them up by the address
-  // of the stream, and one block in thousands is packed otherwise in the next process.
+  // The first bytes by themselves: if more come at first, ISA-L 2.30 to 2.32 hashes the address of the stream, and 15 of
+  // 26 000 small blocks differ by it; 244 do by isal_deflate_stateless(). libdeflate takes 3 to 4.6 times as long.
   stream.avail_in = std::uint32_t(std::min<std::size_t>(count, 16));
   stream.flush = SYNC_FLUSH;
   isal_deflate(&stream);

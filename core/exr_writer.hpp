@@ -1,7 +1,7 @@
 // Writes an OpenEXR picture row by row, as it is rendered, with memory for a few rows.
 //
 // By the core of the OpenEXR library and ISA-L: loading OpenImageIO takes longer than rendering most pictures
-// (docs/decisions/0005).
+// (docs/decisions/0009).
 #pragma once
 
 #include <filesystem>

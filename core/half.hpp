@@ -47,27 +47,6 @@ class HalfOf {
   explicit operator double() const { return value_; }
   explicit operator float() const { return value_; }
 
-  static HalfOf from_bits(std::uint16_t bits) {
-    const int exponent = bits >> 10 & 0x1f, fraction = bits & 0x3ff;
-    const double size = exponent == 0x1f
-                            ? (fraction == 0 ? std::numeric_limits<double>::infinity()
-                                             : std::numeric_limits<double>::quiet_NaN())
-                        : exponent == 0 ? std::ldexp(fraction, -24)
-                                        : std::ldexp(0x400 + fraction, exponent - 25);
-    return std::copysign(size, bits & 0x8000 ? -1.0 : 1.0);
-  }
-  std::uint16_t bits() const {
-    const auto all = std::bit_cast<std::uint32_t>(value_);
-    const std::uint32_t sign = all >> 16 & 0x8000, size = all & 0x7fffffff;
-    constexpr std::uint32_t kExponentOfOne = 127, kExponentOfHalfOne = 15;
-    const std::uint32_t rest = std::isnan(value_)   ? 0x7e00
-                               : std::isinf(value_) ? 0x7c00
-                               : std::abs(value_) < float(kLeastNormalHalf)
-                                   ? std::uint32_t(std::abs(value_) * 0x1p24f)
-                                   : (size >> 13) - ((kExponentOfOne - kExponentOfHalfOne) << 10);
-    return std::uint16_t(sign | rest);
-  }
-
   friend HalfOf operator+(HalfOf a, HalfOf b) { return a.wide() + b.wide(); }
   friend HalfOf operator-(HalfOf a, HalfOf b) { return a.wide() - b.wide(); }
   friend HalfOf operator*(HalfOf a, HalfOf b) { return a.wide() * b.wide(); }

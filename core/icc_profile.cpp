@@ -95,15 +95,15 @@ IccProfile::IccProfile(const std::filesystem::path& path, std::string_view bytes
     return true;
   };
   bool is_rec709 = true;
+  RgbMatrix m;  // by columns the light of pure red, green and blue
   for (std::size_t column = 0; column < 3; ++column)
     for (std::size_t row = 0; row < 3; ++row) {
       const double same = row == column ? 1 : 0;
-      double& value = primaries_[row][column];
+      double& value = m[row][column];
       value = transform_->is_grey ? same : double(probe.pixel(int(3 + column), 0)[row]);
       is_rec709 = is_rec709 && std::abs(value - same) < 0.01;
     }
   // As primaries on a line would, a profile without a curve or a colour shows many colours as one.
-  const auto& m = primaries_;
   const double volume = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);

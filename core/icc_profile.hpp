@@ -28,8 +28,6 @@ class IccProfile {
   bool is_srgb() const { return is_srgb_; }
   /// Whether values are light but for their primaries: grey within 1e-4 at three places.
   bool is_linear() const { return is_linear_; }
-  /// Its primaries as light: by columns the light of pure red, green and blue. The identity for grey.
-  const RgbMatrix& primaries() const { return primaries_; }
 
   /// Makes values from 0 to 1 linear light with Rec. 709 primaries, in place.
   void to_light(Image& image) const;
@@ -37,7 +35,6 @@ class IccProfile {
  private:
   struct Transform;
   std::unique_ptr<Transform> transform_;
-  RgbMatrix primaries_{};
   bool is_srgb_ = false, is_linear_ = false;
 };
 

@@ -22,7 +22,7 @@ inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 /// has such, and the first to write one is the thread that renders it. Throws std::bad_alloc.
 ///
 /// A first write costs 2 to 13 us in a virtual machine, and a picture of 12 MB has 3000 usual pages, but six large ones:
-/// usual pages would take three times as long as rendering the picture, or longer (`make bench-details`).
+/// usual pages would take three times as long as rendering the picture, or longer.
 void* allocate_zeroed(std::size_t bytes);
 void free_zeroed(void* memory, std::size_t bytes);
 

@@ -15,10 +15,10 @@
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
-#include "core/gain_map.hpp"
 #include "core/icc_profile.hpp"
 #include "core/orientation.hpp"
 #include "core/picture.hpp"
+#include "core/picture_file.hpp"
 #include "core/picture_layers.hpp"
 #include "core/picture_light.hpp"
 #include "core/subsampled_exr.hpp"
@@ -324,44 +324,6 @@ PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
           spec.image_bytes(true)};
 }
 
-/// The values of a gain map, from 0 to 1, grey repeated.
-Image read_map(const PictureBytes& file, const GainMap& gain, PictureClaim claim) {
-  const PictureBytes bytes{.path = file.path, .bytes = gain.jpeg, .format = "jpeg"};
-  const auto input = open(bytes);
-  const OIIO::ImageSpec spec = input->spec();
-  if (is_cut_off(gain.jpeg, "jpeg")) unreadable(file.path, "its gain map is cut off");
-  check(file.path, spec, "jpeg", "");
-  if (spec.nchannels != 1 && spec.nchannels != 3)
-    unreadable(file.path, fmt::format("its gain map has {} channels", spec.nchannels));
-  const PictureClaim more = claim_of(spec, "jpeg");
-  if (file.on_header)
-    file.on_header({claim.pixels + more.pixels, claim.raw_bytes + more.raw_bytes});
-  std::vector<std::size_t> where{0};
-  if (spec.nchannels == 3) where = {0, 1, 2};
-  return read_channels({file.path, *input, 0, spec}, where);
-}
-
-/// Brightens the picture by its gain map, if it has one.
-void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const ProfiledMeaning& meaning,
-              Picture& picture) {
-  if (file.base_only) {
-    // Without --base-only a damaged map is an error; here it must not be one.
-    try {
-      if (find_gain_map(file.path, file.bytes)) picture.source.gain_map = "left out";
-    } catch (const Error&) {
-      picture.source.gain_map = "left out";
-    }
-    return;
-  }
-  const auto gain = find_gain_map(file.path, file.bytes);
-  if (!gain) return;
-  picture.source.gain_map = gain->base_is_hdr ? "for SDR" : "applied";
-  if (gain->base_is_hdr) return;
-  const RgbMatrix identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const RgbMatrix primaries = meaning.profile ? meaning.profile->primaries() : identity;
-  apply_gain(*gain, read_map(file, *gain, claim_of(spec, "jpeg")), primaries, picture.image);
-}
-
 Image read_colours(const Reader& reader, const PictureLayer& layer,
                    const ProfiledMeaning& meaning) {
   Image image = read_channels(reader, layer.where);
@@ -438,8 +400,8 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   }
   picture.image = read_colours(reader, layer, meaning);
   to_light(path, meaning, picture);
-  if (format == "jpeg" && layer_name.empty() && !file.as_stored)
-    add_gain(file, spec, meaning, picture);
+  source.has_gain_map =
+      format == "jpeg" && layer_name.empty() && !file.as_stored && has_gain_map(file.bytes);
   source.multiplied_by_alpha = is_decoded && is_unassociated(spec, format);
   if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
   place_on_display(picture);

@@ -22,7 +22,6 @@ struct PictureBytes {
   /// The plug-in of OpenImageIO to use, as picture_format(); "": any, which opens the file `reopen` by itself.
   std::string_view format;
   std::filesystem::path reopen = {};
-  bool base_only = false;                                   ///< leaves out a gain map
   bool on_one_thread = false;                               ///< the calling one
   bool as_stored = false;                                   ///< see read_stored_picture()
   std::function<void(const PictureClaim&)> on_header = {};  ///< may throw

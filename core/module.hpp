@@ -1,5 +1,5 @@
 // Parts of the program that are loaded when they are needed, because their libraries would cost every start time
-// (docs/decisions/0039).
+// (docs/decisions/0009).
 //
 // A module with code of ours offers a table. One without code only brings a library of C, whose functions are called
 // through ModuleFunction.
@@ -36,8 +36,6 @@ inline constinit Module colour_module{"lobelia_colour.so", "colour module"};
 inline constinit Module embree_module{"lobelia_embree.so", "Embree's module"};
 inline constinit Module glpk_module{"lobelia_glpk.so", "GLPK's module"};
 inline constinit Module png_module{"lobelia_png.so", "PNG module"};
-inline constinit Module server_module{"lobelia_server.so", "server module"};
-inline constinit Module zip_module{"lobelia_zip.so", "ZIP module"};
 
 class ModuleAddress {
  public:
@@ -54,7 +52,7 @@ class ModuleAddress {
   std::atomic<void*> found_{nullptr};
 };
 
-/// A function of a library that a module brings: ModuleFunction<decltype(::zip_open)>.
+/// A function of a library that a module brings: ModuleFunction<decltype(::rtcNewDevice)>.
 template <class Function>
 class ModuleFunction;
 template <class Result, class... Arguments>
@@ -65,16 +63,6 @@ class ModuleFunction<Result(Arguments...)> : ModuleAddress {
     return reinterpret_cast<Result (*)(Arguments...)>(find())(arguments...);
   }
 };
-template <class Result, class... Arguments>
-class ModuleFunction<Result(Arguments..., ...)> : ModuleAddress {
- public:
-  using ModuleAddress::ModuleAddress;
-  template <class... More>
-  Result operator()(Arguments... arguments, More... more) {
-    return reinterpret_cast<Result (*)(Arguments..., ...)>(find())(arguments..., more...);
-  }
-};
-
 /// Defines `function`, which hides that of the library.
 #define LOBELIA_MODULE_FUNCTION(module, function) \
   constinit ModuleFunction<decltype(::function)> function { module, #function }

@@ -79,7 +79,8 @@ std::vector<std::pair<std::string, std::string>> reading_facts(const PictureSour
   if (!source.chromaticities.empty())
     facts.emplace_back("Primaries", fmt::format("{:.4g}, converted to Rec. 709",
                                                 fmt::join(source.chromaticities, " ")));
-  if (!source.gain_map.empty()) facts.emplace_back("Gain map", source.gain_map);
+  if (source.has_gain_map)
+    facts.emplace_back("Gain map", "not applied; only the base picture is read");
   return facts;
 }
 

@@ -44,10 +44,10 @@ struct PictureSource {
   bool multiplied_by_alpha = false;  ///< by us, after the transfer curve
   /// x, y of red, green, blue and white that the colours were converted from; empty for Rec. 709
   std::vector<double> chromaticities;
-  std::string icc_profile;   ///< description of a profile
-  bool icc_is_srgb = false;  ///< the profile is what is assumed anyway
-  std::string gain_map;      ///< "applied", "left out", "for SDR"; empty if there is none
-  double samples = 0;        ///< of a pixel, if a renderer wrote them into the file; else 0
+  std::string icc_profile;    ///< description of a profile
+  bool icc_is_srgb = false;   ///< the profile is what is assumed anyway
+  bool has_gain_map = false;  ///< which is not applied
+  double samples = 0;         ///< of a pixel, if a renderer wrote them into the file; else 0
   PixelWindow data, display;
   int orientation = 1;  ///< of the stored rows and columns, undone (core/orientation.hpp)
   std::string alpha;    ///< name of the layer with its alpha; empty if there is none

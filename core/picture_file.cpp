@@ -160,6 +160,14 @@ bool is_heif_of_hdr(std::string_view bytes) {
   return false;
 }
 
+bool has_gain_map(std::string_view jpeg) {
+  // Adobe's specification 1.0 (XMP), and ISO 21496-1.
+  for (const std::string_view name :
+       {"http://ns.adobe.com/hdr-gain-map/1.0/", "urn:iso:std:iso:ts:21496:-1"})
+    if (jpeg.find(name) != jpeg.npos) return true;
+  return false;
+}
+
 bool is_cut_off(std::string_view bytes, std::string_view format) {
   if (format == "jpeg") {
     // ITU-T T.81, B.1.1.3: within a scan neither follows 0xff, so the last of each is a marker.

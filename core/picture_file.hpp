@@ -44,6 +44,10 @@ bool is_cut_off(std::string_view bytes, std::string_view format);
 /// Whether a HEIF or AVIF says that its values are PQ or HLG. OpenImageIO 2.4 decodes it to 8 bits and does not say so.
 bool is_heif_of_hdr(std::string_view bytes);
 
+/// Whether a JPEG names a gain map ("Ultra HDR"): a second picture that says how much brighter each pixel is on a better
+/// display.
+bool has_gain_map(std::string_view jpeg);
+
 /// Whether a page of a TIFF has no BitsPerSample. It is 1 by default (TIFF 6.0, page 29), but OpenImageIO 2.4 assumes 8
 /// and leaves the rest of each row uninitialised.
 bool is_tiff_without_bits(std::string_view bytes);

@@ -95,17 +95,17 @@ class Unpacker {
 template <class Through, class Source>
 void pass_source(Through& through, Source& source) {
   auto& [format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-         icc_profile, icc_is_srgb, gain_map, samples, data, display, orientation, alpha, layers,
+         icc_profile, icc_is_srgb, has_gain_map, samples, data, display, orientation, alpha, layers,
          mip_levels, cryptomattes, manifests, as_stored] = source;
   through.fields(format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-                 icc_profile, icc_is_srgb, gain_map, samples, data, display, orientation, alpha,
+                 icc_profile, icc_is_srgb, has_gain_map, samples, data, display, orientation, alpha,
                  layers, mip_levels, cryptomattes, manifests, as_stored);
 }
 
 template <class Through, class Request>
 void pass_request(Through& through, Request& request) {
-  through.fields(request.names_only, request.on_one_thread, request.base_only, request.as_stored,
-                 request.format, request.path, request.layer, request.limit.pixels_of_any_file,
+  through.fields(request.names_only, request.on_one_thread, request.as_stored, request.format,
+                 request.path, request.layer, request.limit.pixels_of_any_file,
                  request.limit.pixels_per_byte);
 }
 

@@ -16,7 +16,6 @@ namespace lobelia {
 struct ReadingRequest {
   bool names_only = false;  ///< layer names instead of a picture
   bool on_one_thread = false;
-  bool base_only = false;  ///< without gain maps
   bool as_stored = false;  ///< see read_stored_picture()
   std::string format;      ///< as picture_format(); "": any
   std::string path, layer;

@@ -159,7 +159,6 @@ ReadingAnswer decode(const ImageIoTable* table, const Job& job, std::string_view
   PictureBytes file{.path = request.path,
                     .bytes = bytes,
                     .format = request.format,
-                    .base_only = request.base_only,
                     .on_one_thread = request.on_one_thread || bytes.size() < kManyThreadsBytes ||
                                      !can_start_threads(),
                     .as_stored = request.as_stored};

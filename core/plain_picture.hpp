@@ -1,4 +1,4 @@
-// Reads the pictures that most programs write without OpenImageIO, whose libraries cost 0.3 s (docs/decisions/0044).
+// Reads the pictures that most programs write without OpenImageIO, whose libraries cost 0.3 s (docs/decisions/0008).
 //
 // Plain is an EXR of one part, by rows, of the channels R, G, B and A or Y and A, packed without a loss, whose data window
 // is its display window; and a PNG of 8 or 16 bits without a palette, a transparent colour, a position or an ICC profile.

@@ -2,11 +2,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
 #include <linux/landlock.h>
-#include <linux/seccomp.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -14,9 +12,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstddef>
+#include <memory>
 #include <thread>
-#include <vector>
 
 namespace lobelia {
 namespace {
@@ -36,56 +33,6 @@ void set_limit(int resource, std::uint64_t soft) {
   limit.rlim_cur = std::min<rlim_t>(soft, limit.rlim_max);
   ::setrlimit(__rlimit_resource_t(resource), &limit);
 }
-
-#if defined(__x86_64__)
-constexpr std::uint32_t kArchitecture = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
-#else
-constexpr std::uint32_t kArchitecture = 0;  // none that is known: nothing is filtered
-#endif
-
-/// A program for the kernel: which system calls go through.
-class Filter {
- public:
-  Filter() {
-    load(offsetof(seccomp_data, arch));
-    add(BPF_JMP | BPF_JEQ | BPF_K, kArchitecture, 1, 0);
-    end(SECCOMP_RET_KILL_PROCESS);
-    load(offsetof(seccomp_data, nr));
-  }
-  void allow(long call) {
-    add(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t(call), 0, 1);
-    end(SECCOMP_RET_ALLOW);
-  }
-  /// Where of the argument's low half the bits of `mask` are `value`.
-  void allow_if(long call, int argument, std::uint32_t mask, std::uint32_t value) {
-    add(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t(call), 0, 5);
-    load(std::uint32_t(offsetof(seccomp_data, args)) +
-         8 * std::uint32_t(argument));  // little-endian
-    add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
-    add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
-    end(SECCOMP_RET_ALLOW);
-    end(SECCOMP_RET_ERRNO | EPERM);
-  }
-  void refuse(long call, std::uint32_t error) {
-    add(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t(call), 0, 1);
-    end(SECCOMP_RET_ERRNO | error);
-  }
-  bool install() {
-    end(SECCOMP_RET_ERRNO | EPERM);
-    const sock_fprog program{static_cast<unsigned short>(steps_.size()), steps_.data()};
-    return kArchitecture != 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
-  }
-
- private:
-  void add(int code, std::uint32_t k, std::uint8_t if_true, std::uint8_t if_false) {
-    steps_.push_back({static_cast<std::uint16_t>(code), if_true, if_false, k});
-  }
-  void load(std::size_t offset) { add(BPF_LD | BPF_W | BPF_ABS, std::uint32_t(offset), 0, 0); }
-  void end(std::uint32_t answer) { add(BPF_RET | BPF_K, answer, 0, 0); }
-  std::vector<sock_filter> steps_;
-};
 
 /// Memory, threads, time, and what is open already: decoders, malloc and pools of threads need no more.
 constexpr std::initializer_list<long> kHarmlessCalls[] = {
@@ -180,19 +127,32 @@ bool lock_down(bool may_open_files) {
   set_limit(RLIMIT_CORE, 1);
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
   if (may_open_files) forbid_every_path();
-  Filter filter;
+  const std::unique_ptr<void, decltype(&::seccomp_release)> filter(
+      ::seccomp_init(SCMP_ACT_ERRNO(EPERM)), &::seccomp_release);
+  bool is_complete = filter && ::seccomp_attr_set(filter.get(), SCMP_FLTATR_ACT_BADARCH,
+                                                  SCMP_ACT_KILL_PROCESS) == 0;
+  const auto add = [&](std::uint32_t action, long call,
+                       std::initializer_list<scmp_arg_cmp> arguments = {}) {
+    is_complete =
+        is_complete && ::seccomp_rule_add_array(filter.get(), action, int(call),
+                                                unsigned(arguments.size()), arguments.begin()) == 0;
+  };
+  /// Where of the argument's low half the bits of `mask` are `value`.
+  const auto allow_if = [&](long call, unsigned argument, std::uint32_t mask, std::uint32_t value) {
+    add(SCMP_ACT_ALLOW, call, {scmp_arg_cmp{argument, SCMP_CMP_MASKED_EQ, mask, value}});
+  };
   for (const auto& calls : kHarmlessCalls)
-    for (const long call : calls) filter.allow(call);
-  filter.allow_if(SYS_clone, 0, CLONE_THREAD, CLONE_THREAD);
-  filter.refuse(SYS_clone3,
-                ENOSYS);  // then the C library takes clone, of which the flags can be seen
-  filter.allow_if(SYS_tgkill, 0, ~0u, std::uint32_t(::getpid()));  // abort()
-  filter.allow_if(SYS_prlimit64, 0, ~0u, 0);                       // its own limits
+    for (const long call : calls) add(SCMP_ACT_ALLOW, call);
+  allow_if(SYS_clone, 0, CLONE_THREAD, CLONE_THREAD);
+  // Then the C library takes clone, of which the flags can be seen.
+  add(SCMP_ACT_ERRNO(ENOSYS), SYS_clone3);
+  allow_if(SYS_tgkill, 0, ~0u, std::uint32_t(::getpid()));  // abort()
+  allow_if(SYS_prlimit64, 0, ~0u, 0);                       // its own limits
   if (may_open_files) {
-    filter.allow_if(SYS_openat, 2, O_ACCMODE | O_CREAT | O_TRUNC, O_RDONLY);
-    for (const long call : kNameCalls) filter.allow(call);
+    allow_if(SYS_openat, 2, O_ACCMODE | O_CREAT | O_TRUNC, O_RDONLY);
+    for (const long call : kNameCalls) add(SCMP_ACT_ALLOW, call);
   }
-  return filter.install();
+  return is_complete && ::seccomp_load(filter.get()) == 0;
 }
 
 }  // namespace lobelia

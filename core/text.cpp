@@ -1,6 +1,7 @@
 #include "core/text.hpp"
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 #include <algorithm>
 #include <charconv>
@@ -28,23 +29,15 @@ struct Character {
 /// Takes the first character off `text` (RFC 3629: the shortest form, no surrogates, up to U+10FFFF). Where it is not
 /// UTF-8 takes one byte.
 Character take_character(std::string_view& text) {
-  const auto byte = [&](std::size_t i) {
-    return std::uint32_t(static_cast<unsigned char>(text[i]));
-  };
-  const std::uint32_t first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  bool valid = first < 0x80 || (first >= 0xC2 && first <= 0xF4 && text.size() >= length);
-  std::uint32_t code = first < 0x80 ? first : first & (0xFFu >> (length + 1));
-  for (std::size_t i = 1; valid && i < length; ++i) {
-    valid = (byte(i) & 0xC0) == 0x80;
-    code = code << 6 | (byte(i) & 0x3F);
+  constexpr std::size_t kLongest = 4;
+  Character first{static_cast<unsigned char>(text[0]), text.substr(0, 1)};
+  for (std::size_t n = 1; !first.is_valid && n <= std::min(kLongest, text.size()); ++n) {
+    const std::string_view bytes = text.substr(0, n);
+    if (utf8::is_valid(bytes.begin(), bytes.end()))
+      first = {utf8::peek_next(bytes.begin(), bytes.end()), bytes, true};
   }
-  constexpr std::uint32_t kShortest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool is_surrogate = code >= 0xD800 && code < 0xE000;
-  valid = valid && code >= kShortest[length] && !is_surrogate && code <= 0x10FFFF;
-  const std::string_view bytes = text.substr(0, valid ? length : 1);
-  text.remove_prefix(bytes.size());
-  return {valid ? code : first, bytes, valid};
+  text.remove_prefix(first.bytes.size());
+  return first;
 }
 
 /// Control characters, marks that change the direction of writing, line separators, and characters that XML forbids.

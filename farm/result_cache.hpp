@@ -7,7 +7,7 @@
 //   CACHE/making/                   results in the making (DraftName)
 //   CACHE/locks                     claims (core/byte_locks.hpp)
 //
-// Symbolic links among these are not followed. docs/decisions/0014: why directories; 0019: how lost results come back.
+// Symbolic links among these are not followed. docs/decisions/0005: why directories; 0006: how lost results come back.
 #pragma once
 
 #include <set>

@@ -6,10 +6,9 @@
 #include <bit>
 #include <utility>
 
-#include "core/base64.hpp"
 #include "gallery/cell_page.hpp"
-#include "gallery/deflated.hpp"
 #include "gallery/packed_pixels.hpp"
+#include "gallery/packing.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -47,7 +46,7 @@ std::string pixels_of(std::vector<NamedPicture> pictures, std::vector<records::P
   const PackedPixels packed = packed_pixels(images);
   for (std::size_t i = 0; i < images.size(); ++i)
     list.push_back({pictures[i].file, images[i].width, images[i].height, packed.ways[i]});
-  return base64(deflated(packed.bytes, kMostDeflated));
+  return packed_bytes(packed.bytes);
 }
 
 }  // namespace
@@ -88,9 +87,8 @@ records::CellChunk CellChunk::packed() const {
   for (const std::uint32_t number : order_) halves.push_back(std::uint16_t(number >> 16));
   const std::string_view order(reinterpret_cast<const char*>(halves.data()),
                                halves.size() * sizeof(std::uint16_t));
-  return {base64(deflated(records::record_line(texts_), kMostDeflated)),
-          base64(deflated(order, kMostDeflated)), base64(deflated(curves_.bytes(), kMostDeflated)),
-          pixels_};
+  return {packed_bytes(records::record_line(texts_)), packed_bytes(order),
+          packed_bytes(curves_.bytes()), pixels_};
 }
 
 }  // namespace lobelia::gallery

@@ -4,24 +4,8 @@
 namespace lobelia::gallery {
 namespace {
 
-/// Radio buttons for the size of the pictures. style.css does the rest, without script.
-void write_size_choice(Html& html) {
-  static constexpr const char* kSizes[][2] = {{"size-fit", "fit"},
-                                              {"size-one", "1 : 1"},
-                                              {"size-two", "2 : 1"},
-                                              {"size-four", "4 : 1"},
-                                              {"size-eight", "8 : 1"}};
-  for (const auto& [id, label] : kSizes) {
-    Attributes attributes = {{"type", "radio"}, {"name", "size"}, {"id", id}, {"class", "size"}};
-    if (std::string_view(label) == "fit") attributes.push_back({"checked", "checked"});
-    html.empty("input", attributes);
-    html.element("label", {{"for", id}}, label);
-  }
-}
-
 void write_image(Html& html, const Picture& picture, const std::string& alt) {
-  // When enlarged, each frame scrolls, and gallery.js keeps all of them at the same place.
-  const Tag frame(html, "div", {{"class", "picture"}, {"tabindex", "0"}});
+  const Tag frame(html, "div", {{"class", "picture"}});
   const SmallPicture shown = picture.preview();
   const auto write = [&] {
     html.empty("img", {{"src", link_to({shown.file})},
@@ -123,8 +107,6 @@ void write_explanation(Html& html, const CheckedCell& cell) {
 void write_pictures(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"class", "pictures"}, {"aria-labelledby", "pictures"}});
   html.element("h2", {{"id", "pictures"}}, "Pictures");
-  html.element("span", {{"class", "size-title"}}, "Size");
-  write_size_choice(html);
   {
     const Tag row(html, "div", {{"class", "picture-row engines"}});
     for (const records::FarmEngine& engine : farm.record.engines)

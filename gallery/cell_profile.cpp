@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "core/numbers.hpp"
@@ -10,7 +9,6 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr double kBeyondZones = 1.25;  // the angle axis ends at this multiple of the outermost zone
-constexpr double kMaxDecades = 10;     // of the logarithmic chart
 
 struct Curve {
   std::string name;
@@ -81,73 +79,15 @@ Chart radiance_chart(const ShownFarm& farm, const records::Profile& profile) {
   return chart;
 }
 
-/// |engine - formula| over angle, logarithmic. A chart without series if no curve differs at all.
-Chart difference_chart(const ShownFarm& farm, const records::Profile& profile,
-                       const std::vector<double>& analytic) {
-  Chart chart{
-      .id = "difference",
-      .title = "Difference from the formula over angle",
-      .description = "Absolute difference of each engine's curve from the formula, logarithmic.",
-      .height = 320,
-      .x = angle_axis(profile),
-      .y = {},
-      .bands = zone_bands(profile),
-      .series = {}};
-  double low = INFINITY, high = 0;
-  for (const auto& [name, values] : in_order(farm, profile)) {
-    if (name == kAnalytic) continue;
-    ChartSeries series{curve_title(farm, name) + " − formula",
-                       profile.curve.angle_degrees,
-                       {},
-                       style_of(farm, name)};
-    bool any = false;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double difference = std::abs(values[i] - analytic[i]);
-      series.y.push_back(difference);
-      const bool drawn = difference >= kSmallestDrawn && difference <= kLargestDrawn;
-      if (!drawn || profile.curve.angle_degrees[i] > chart.x.to) continue;
-      low = std::min(low, difference);
-      high = std::max(high, difference);
-      any = true;
-    }
-    if (!any) series.label += " (none)";
-    chart.series.push_back(std::move(series));
-  }
-  if (high == 0) {
-    chart.series.clear();
-    return chart;
-  }
-  const double to = std::pow(10, std::ceil(std::log10(high)));
-  const double from = std::pow(10, std::floor(std::log10(low)));
-  chart.y = {"|difference| (radiance, log)", std::max(from, to * std::pow(10, -kMaxDecades)), to,
-             true};
-  if (chart.y.from == chart.y.to) chart.y.from /= 10;
-  return chart;
-}
-
 void write_curves(Html& html, const ShownFarm& farm, const records::Profile& profile) {
   if (profile.curve.angle_degrees.empty() || profile.curve.radiance.empty())
     return write_absence(
         html, "The profile has no curve: no pixel of the picture lies in this highlight.");
-  {
-    const Tag figure(html, "figure", {{"class", "chart-figure"}});
-    html.raw(draw_chart(radiance_chart(farm, profile)));
-    html.element(
-        "figcaption",
-        "The highlight as a curve: mean radiance (of red, green and blue) of the pixels at "
-        "each angle. Lines that lie on each other show through by their dashes.");
-  }
-  const std::vector<double>* analytic = records::find(profile.curve.radiance, kAnalytic);
-  if (!analytic)
-    return write_absence(html, "The profile has no curve of the formula to compare with.");
-  const Chart chart = difference_chart(farm, profile, *analytic);
-  if (chart.series.empty())
-    return write_absence(html, "No curve differs from the formula in any digit.");
   const Tag figure(html, "figure", {{"class", "chart-figure"}});
-  html.raw(draw_chart(chart));
+  html.raw(draw_chart(radiance_chart(farm, profile)));
   html.element("figcaption",
-               "How far each curve is from the formula, subtracted for this drawing, on a "
-               "logarithmic axis. A gap is a bin without any difference.");
+               "The highlight as a curve: mean radiance (of red, green and blue) of the pixels at "
+               "each angle. Lines that lie on each other show through by their dashes.");
 }
 
 struct FigureColumn {

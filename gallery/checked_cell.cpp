@@ -71,8 +71,8 @@ std::string without_directory(std::string message, const fs::path& directory) {
 /// Reads the files that cell.json names, unless they have a flaw; adds every flaw to the cell.
 class CellReader {
  public:
-  CellReader(fs::path directory, const Scrub* scrub, CheckedCell& cell)
-      : directory_(std::move(directory)), scrub_(scrub), cell_(cell) {}
+  CellReader(fs::path directory, const PublishedTexts* texts, CheckedCell& cell)
+      : directory_(std::move(directory)), texts_(texts), cell_(cell) {}
 
   void read();
 
@@ -89,7 +89,7 @@ class CellReader {
   std::string read_named(const std::string& file, T& record, std::string* made_by = nullptr);
 
   fs::path directory_;
-  const Scrub* scrub_;
+  const PublishedTexts* texts_;
   std::map<std::string, std::string> hashes_;  ///< SHA-256 in cell.json, by file name
   CheckedCell& cell_;
 };
@@ -147,7 +147,7 @@ std::string CellReader::read_named(const std::string& file, T& record, std::stri
   try {
     records::Origin origin;
     const fs::path path = directory_ / file;
-    record = read_scrubbed<T>(path, scrub_, path.string(), &origin);
+    record = read_published<T>(path, texts_, path.string(), &origin);
     if (made_by) *made_by = origin.made_by;
     return "";
   } catch (const Error& error) {
@@ -224,7 +224,7 @@ const CheckedComparison* CheckedCell::find_comparison(const std::string& other) 
 }
 
 CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const Metrics& metrics,
-                       const std::string& hub, const Scrub* scrub) {
+                       const std::string& hub, const PublishedTexts* texts) {
   const fs::path here = directory / "cells" / entry.id;
   CheckedCell cell;
   cell.id = entry.id;
@@ -239,11 +239,11 @@ CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const 
   try {
     CheckedCell whole = cell;
     const fs::path file = here / "cell.json";
-    whole.record = read_scrubbed<records::Cell>(file, scrub, file.string(), &origin);
+    whole.record = read_published<records::Cell>(file, texts, file.string(), &origin);
     if (origin.seal != records::Origin::Seal::kBroken) {
       whole.is_sealed = origin.seal == records::Origin::Seal::kFits;
       whole.made_by = origin.made_by;
-      CellReader(here, scrub, whole).read();
+      CellReader(here, texts, whole).read();
       whole.has_record = true;
       judge_cell(whole, metrics);
       return whole;

@@ -74,10 +74,10 @@ struct CheckedCell {
 };
 
 /// Reads DIR/cells/ID/cell.json and every file it names, and judges the cell again. Files with a flaw are not used.
-/// `entry` is the cell's line in farm.json, `hub` is ShownFarm::hub, `scrub` ShownFarm::scrub.
+/// `entry` is the cell's line in farm.json, `hub` is ShownFarm::hub, `texts` ShownFarm::texts.
 CheckedCell check_cell(const std::filesystem::path& directory, const CellEntry& entry,
                        const Metrics& metrics, const std::string& hub = kOurEngine,
-                       const Scrub* scrub = nullptr);
+                       const PublishedTexts* texts = nullptr);
 
 /// Plain names of all files of the cell's directory that its page may show or link to.
 std::vector<std::string> files_of(const CheckedCell& cell);

@@ -236,9 +236,8 @@ void write_ways(Html& html, const CostTable& table) {
   }
 }
 
-/// The chart for screens and for phones, and the file that the study drew of it.
-void write_chart(Html& html, ViewPage& page, const std::filesystem::path& run,
-                 const CostTable& table, std::size_t number, std::size_t e) {
+/// The chart for screens and for phones.
+void write_chart(Html& html, const CostTable& table, std::size_t number, std::size_t e) {
   const CostError& error = table.errors[e];
   const std::string id = fmt::format("cost-{}-{}", number, e), title = short_title(table, error);
   const Tag figure(
@@ -249,24 +248,20 @@ void write_chart(Html& html, ViewPage& page, const std::filesystem::path& run,
     const Tag box(html, "div", {{"class", narrow ? "narrow" : "wide"}});
     html.raw(draw_chart(chart_of(table, error, narrow ? id + "-narrow" : id, narrow)));
   }
-  if (const auto* front = records::find(table.fronts, error.id))
-    write_study_chart(page, run, {"cost", front->chart});
 }
 
 /// One chart, and those by the other errors below it.
-void write_charts(Html& html, ViewPage& page, const std::filesystem::path& run,
-                  const CostTable& table, std::size_t number) {
+void write_charts(Html& html, const CostTable& table, std::size_t number) {
   std::vector<std::size_t> drawn;
   for (std::size_t e = 0; e < table.errors.size(); ++e)
     if (is_drawable(table, table.errors[e])) drawn.push_back(e);
   if (drawn.empty()) return;
-  write_chart(html, page, run, table, number, drawn[0]);
+  write_chart(html, table, number, drawn[0]);
   if (drawn.size() == 1) return;
   const Tag details(html, "details", {{"class", "more-charts"}});
   html.element("summary", drawn.size() == 2 ? "By another error"
                                             : fmt::format("By {} other errors", drawn.size() - 1));
-  for (std::size_t i = 1; i < drawn.size(); ++i)
-    write_chart(html, page, run, table, number, drawn[i]);
+  for (std::size_t i = 1; i < drawn.size(); ++i) write_chart(html, table, number, drawn[i]);
 }
 
 void write_words(Html& html, const CostTable& table) {
@@ -284,8 +279,7 @@ void write_words(Html& html, const CostTable& table) {
   for (const std::string& remark : table.remarks) math_element(html, "p", remark);
 }
 
-void write_table(Html& html, ViewPage& page, const std::filesystem::path& run,
-                 const CostTable& table, std::size_t number) {
+void write_table(Html& html, const CostTable& table, std::size_t number) {
   const Tag section(html, "section", {{"id", fmt::format("table-{}", number)}});
   html.element("h2", math_text(table.title));
   if (const std::string finding = finding_of(table); !finding.empty())
@@ -294,15 +288,14 @@ void write_table(Html& html, ViewPage& page, const std::filesystem::path& run,
     const Tag pair(html, "div", {{"class", "cost-pair"}});
     {
       const Tag charts(html, "div", {{"class", "charts"}});
-      write_charts(html, page, run, table, number);
+      write_charts(html, table, number);
     }
     write_ways(html, table);
   }
   write_words(html, table);
 }
 
-void write_cost(ViewPage& page, const std::filesystem::path& run, const records::Cost& cost) {
-  Html& html = page.main;
+void write_cost(Html& html, const records::Cost& cost) {
   write_lead(html, kTitle,
              "Each table has every variant of one thing, with its error and its time. Times are "
              "medians of interleaved rounds, ± half the spread between quartiles. On the front are "
@@ -316,8 +309,7 @@ void write_cost(ViewPage& page, const std::filesystem::path& run, const records:
       html.element("a", {{"href", fmt::format("#table-{}", i)}}, math_text(cost.tables[i].title));
     }
   }
-  for (std::size_t i = 0; i < cost.tables.size(); ++i)
-    write_table(html, page, run, cost.tables[i], i);
+  for (std::size_t i = 0; i < cost.tables.size(); ++i) write_table(html, cost.tables[i], i);
   const Tag section(html, "section");
   html.element("h2", "How it was measured");
   write_command(html, shell_join(cost.command));
@@ -361,7 +353,7 @@ std::string dearest_step(const records::Cost& record) {
 std::optional<ViewPage> read_and_draw(const RunFiles& run) {
   return record_page<records::Cost>(
       run, kRecord, kTitle, [&](ViewPage& page, const records::Cost& record) {
-        write_cost(page, run, record);
+        write_cost(page.main, record);
         page.finding = dearest_step(record);
         if (file_type_at(run / kCsv) == std::filesystem::file_type::regular)
           page.files.push_back(kCsv);

@@ -27,7 +27,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 using Rows = std::vector<std::vector<std::int64_t>>;
 
 constexpr std::size_t kMaxExponents = 1000, kMaxPoints = 1000;
-/// Small enough that a second difference of rows does not overflow.
+/// A double holds every whole number up to here.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
 
 /// The numbers from 0 to `reach` at which the tables have values (docs/records.md).
@@ -100,17 +100,6 @@ void require_drawable(const HighlightTables& tables) {
   }
 }
 
-/// The lobe's value, 0 to 1, of an integer in its curves.
-double lobe_value(const LobeTable& lobe, std::int64_t number) {
-  const double scaled = double(number) * lobe.unit;
-  return lobe.order > 0 ? std::pow(std::max(0.0, scaled), lobe.order) : std::exp(scaled);
-}
-
-/// The angle of every number of a curve, in radians.
-std::vector<double> curve_angles(const LobeTable& lobe, std::size_t exponent, double n) {
-  return spread(lobe.reach[exponent], n, lobe.curves[exponent].size());
-}
-
 /// The albedo of an integer in `seen` or `lit`.
 double albedo_of(const HighlightTable& highlight, std::int64_t number) {
   return std::exp(double(number) * highlight.unit);
@@ -140,71 +129,11 @@ std::size_t nearest(const std::vector<double>& exponents, double n) {
   return std::size_t(std::ranges::min_element(exponents, distance) - exponents.begin());
 }
 
-std::vector<double> in_degrees(std::vector<double> radians) {
-  for (double& angle : radians) angle /= kDegree;
-  return radians;
-}
-
-/// A chart has styles for six lines. A family of lobes is shown by its first and its last.
-constexpr std::size_t kMaxLines = 6;
-
-void write_chart(Html& html, const Chart& chart, const std::string& words) {
-  const Tag figure(html, "figure", {{"class", "chart-figure"}});
-  html.element("h3", chart.title);
-  html.raw(draw_chart(chart));
-  html.element("figcaption", words);
-}
-
-Chart lobe_chart(const HighlightTables& tables, std::size_t at) {
-  const double n = tables.exponents[at];
-  Chart chart{.id = "lobes",
-              .title = "Lobes at n = " + number_text(n, 4),
-              .description = "The lobes over the angle, of the peak, logarithmic.",
-              .width = 760,
-              .height = 400,
-              .x = {"angle that the lobe sees (degrees)", 0, 60, false},
-              .y = {"lobe (log)", 1e-5, 10, true},
-              .bands = {},
-              .series = {}};
-  for (const LobeTable& lobe : tables.lobes) {
-    if (lobe.order > 0 && lobe.order != 2 && lobe.order != 16) continue;
-    if (chart.series.size() == kMaxLines) break;
-    ChartSeries series{
-        lobe.title, in_degrees(curve_angles(lobe, at, n)), {}, int(chart.series.size())};
-    for (const std::int64_t number : lobe.curves[at]) series.y.push_back(lobe_value(lobe, number));
-    chart.series.push_back(std::move(series));
-  }
-  return chart;
-}
-
 /// The title of a model or a lobe.
 template <class T>
 std::string title_of(const std::vector<T>& all, const std::string& name) {
   const auto one = std::ranges::find(all, name, &T::name);
   return one == all.end() ? name : one->title;
-}
-
-Chart albedo_chart(const HighlightTables& tables, std::size_t at, const std::string& lobe) {
-  const double n = tables.exponents[at];
-  Chart chart{.id = "albedos",
-              .title = fmt::format("Energy over incidence, {} at n = {}",
-                                   title_of(tables.lobes, lobe), number_text(n, 4)),
-              .description = "What leaves of a beam, over its incidence, for every model.",
-              .width = 760,
-              .height = 400,
-              .x = {"incidence (degrees)", 0, 90, false},
-              .y = {"share of a beam that leaves", 0, 2, false},
-              .bands = {},
-              .series = {}};
-  for (const HighlightTable& highlight : tables.highlights) {
-    if (highlight.lobe != lobe || chart.series.size() == kMaxLines) continue;
-    const auto incidences = incidences_of(tables, n, highlight.seen[at].size());
-    const auto model = std::ranges::find(tables.models, highlight.model, &ModelTable::name);
-    chart.series.push_back({model == tables.models.end() ? highlight.model : model->title,
-                            in_degrees(incidences), beam_of(highlight, at, incidences),
-                            int(chart.series.size())});
-  }
-  return chart;
 }
 
 void write_lobes(Html& html, const HighlightTables& tables) {
@@ -253,34 +182,10 @@ void write_highlights(Html& html, const HighlightTables& tables, std::size_t at)
   }
 }
 
-/// Eight digits: more than the tables are good for, and shorter than a double's.
-void round_all(std::vector<double>& values) {
-  for (double& value : values) value = std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr);
-}
-
-/// Replaces rows by their second differences from exponent to exponent, which have few digits. Row 0 stays, row 1 becomes
-/// its difference from row 0.
-void take_differences(Rows& rows) {
-  for (std::size_t r = rows.size(); r-- > 1;)
-    for (std::size_t i = 0; i < rows[r].size(); ++i)
-      rows[r][i] -= r == 1 ? rows[0][i] : 2 * rows[r - 1][i] - rows[r - 2][i];
-}
-
 records::ExplorerPage page_data(HighlightTables tables) {
   for (records::ModelTable& model : tables.models)
     model.coefficient = math_text(model.coefficient), model.angle = math_text(model.angle);
-  for (LobeTable& lobe : tables.lobes) {
-    lobe.formula = math_text(lobe.formula);
-    round_all(lobe.reach);
-    round_all(lobe.half_width);
-    take_differences(lobe.curves);
-  }
-  for (HighlightTable& highlight : tables.highlights) {
-    round_all(highlight.exact);
-    round_all(highlight.paper);
-    take_differences(highlight.seen);
-    take_differences(highlight.lit);
-  }
+  for (LobeTable& lobe : tables.lobes) lobe.formula = math_text(lobe.formula);
   return tables;
 }
 
@@ -293,14 +198,6 @@ void draw(ViewPage& page, const HighlightTables& tables) {
       "Choose a model, a lobe, a normalisation and an exponent. See the highlight on a sphere, its curve, its "
       "coefficient, its cost and how much of the light it reflects, alone or beside another.");
   html.element("div", {{"id", "explorer"}}, "");
-  {
-    const Tag section(html, "section", {{"class", "without-script"}});
-    const Tag grid(html, "div", {{"class", "figure-grid"}});
-    write_chart(html, lobe_chart(tables, at), "Where a line ends, the lobe is 0.");
-    if (!tables.lobes.empty())
-      write_chart(html, albedo_chart(tables, at, tables.lobes.front().name),
-                  "Above 1 more leaves than arrives; towards grazing light an RDF has no bound.");
-  }
   {
     const Tag section(html, "section");
     html.element("h2", "At a few exponents");

@@ -64,7 +64,7 @@ CellSummary publish_page(const GalleryOptions& options, const SiteFrame& site,
 CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, const SiteFrame& site,
                          const ShownFarm& farm, const History& history, const CellEntry& entry,
                          Publisher& publisher) {
-  CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.scrub.get());
+  CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.texts.get());
   if (options.metrics_only)
     for (EnginePicture& image : cell.images) image.exr.clear();
   publish_small_pictures(run, cell, options.metrics_only, publisher);
@@ -143,23 +143,14 @@ void write_frame(Publisher& publisher, const SiteFrame& site) {
   publisher.write(site.script, embedded::gallery_script);
 }
 
-/// Null if nothing is to be taken out.
-std::shared_ptr<const Scrub> scrub_of(const fs::path& run, const GalleryOptions& options) {
+/// Null if all texts are published as they are.
+std::shared_ptr<const PublishedTexts> texts_of(const fs::path& run, const GalleryOptions& options) {
   if (!options.scrubbed) return nullptr;
-  std::vector<fs::path> directories = options.baselines;
-  directories.insert(directories.end(), {run, options.site});
   const records::Farm farm = read_farm(run).record;
-  // Paths with spaces are only known where they are quoted.
-  if (farm.cache.starts_with('/')) directories.emplace_back(farm.cache);
-  for (std::size_t at = farm.command.find("'/"); at != std::string::npos;) {
-    const std::size_t end = std::min(farm.command.find('\'', at + 1), farm.command.size());
-    directories.emplace_back(farm.command.substr(at + 1, end - at - 1));
-    at = farm.command.find("'/", end + 1);
-  }
-  auto scrub = std::make_shared<Scrub>(
-      directories, farm.host ? std::vector{farm.host->name} : std::vector<std::string>());
-  scrub->keep_apart(farm.axes);
-  return scrub;
+  auto texts = std::make_shared<PublishedTexts>(farm.host ? std::vector{farm.host->name}
+                                                          : std::vector<std::string>());
+  texts->keep_apart(farm.axes);
+  return texts;
 }
 
 /// With that cell alone. Throws Error(kUsage) if there is none.
@@ -174,7 +165,7 @@ ShownFarm only(const std::string& id, ShownFarm farm) {
   std::erase_if(record.cells, [&](const records::FarmCell& cell) { return cell.id != id; });
   ShownFarm one = show(std::move(record), farm.metrics);
   one.made_by = farm.made_by;
-  one.scrub = farm.scrub;
+  one.texts = farm.texts;
   return one;
 }
 
@@ -193,7 +184,7 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   SiteFrame site{options.title, checked_base_url(options.base_url), {{"index.html", "Grid"}}};
   check(options);
   ShownFarm farm =
-      only(options.only_cell, read_farm(run, Metrics(options.metrics), scrub_of(run, options)));
+      only(options.only_cell, read_farm(run, Metrics(options.metrics), texts_of(run, options)));
   if (site.title.empty()) site.title = farm.record.title;
   farm.record.title = site.title;
   const History history = read_history(run, farm, options.baselines);
@@ -203,7 +194,7 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
     site.script = named_by_content(kScriptFile, embedded::gallery_script);
   }
   Publisher publisher(options.site.empty() ? run : options.site);
-  publisher.set_scrub(farm.scrub);
+  publisher.set_texts(farm.texts);
   write_frame(publisher, site);
   // Without it GitHub Pages leaves files out.
   if (options.for_host) publisher.write(".nojekyll", "");
@@ -211,7 +202,7 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   std::vector<std::pair<const View*, ViewPage>> pages;
   for (const View* view : views()) {
     if (options.only_cells) break;
-    auto page = view->draw({run, farm.scrub.get()});
+    auto page = view->draw({run, farm.texts.get()});
     if (!page) continue;
     site.pages.push_back({std::string(view->file), std::string(view->title)});
     pages.emplace_back(view, std::move(*page));

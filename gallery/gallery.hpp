@@ -50,7 +50,7 @@ struct GalleryOptions {
   std::vector<std::filesystem::path> baselines;  ///< earlier runs, the oldest first
   std::string title;                             ///< empty: the grid's
   std::string base_url;  ///< public address, for previews of links to it; empty: unknown
-  /// Without paths, host and user names in records, logs and pages (scrub.hpp). Not into the run itself.
+  /// Without texts that tell of the machine (published_texts.hpp). Not into the run itself.
   bool scrubbed = false;
   /// Style and script are named by their content, so that a server may let browsers keep them for ever.
   bool for_host = false;

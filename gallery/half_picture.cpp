@@ -1,10 +1,13 @@
 #include "gallery/half_picture.hpp"
 
-#include "core/base64.hpp"
-#include "core/half.hpp"
+#define IMATH_HALF_NO_LOOKUP_TABLE  // which would need its library
+#include <Imath/half.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "core/image_values.hpp"
-#include "gallery/deflated.hpp"
-#include "gallery/predicted.hpp"
+#include "gallery/packing.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -68,15 +71,17 @@ records::PackedPicture half_picture(const Image& image, int precision) {
   halves.reserve(image.values().size());
   for (const float value : image.values()) {
     const bool is_small = std::abs(value) < result.least;
-    halves.push_back(Half(is_small ? 0.0f : std::ldexp(value, result.scale_log2)).bits());
+    halves.push_back(Imath::half(is_small ? 0.0f : std::ldexp(value, result.scale_log2)).bits());
   }
   const auto packed = [&](bool is_predicted) {
-    return deflated(residuals(halves, image.width(), image.height(),
-                              kHalfMantissa - result.mantissa_bits, is_predicted));
+    constexpr int kQuick = 6;
+    return packed_bytes(residuals(halves, image.width(), image.height(),
+                                  kHalfMantissa - result.mantissa_bits, is_predicted),
+                        kQuick);
   };
-  const std::string predicted_bytes = packed(true), plain_bytes = packed(false);
-  result.predicted = predicted_bytes.size() <= plain_bytes.size();
-  result.planes = base64(result.predicted ? predicted_bytes : plain_bytes);
+  std::string with_prediction = packed(true), plain = packed(false);
+  result.predicted = with_prediction.size() <= plain.size();
+  result.planes = std::move(result.predicted ? with_prediction : plain);
   return result;
 }
 

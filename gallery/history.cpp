@@ -88,7 +88,7 @@ std::string link_in(const fs::path& run, const std::string& id) {
 CheckedCell check_earlier_cell(const EarlierRun& run, const CellEntry& entry) {
   const std::string link = link_in(run.directory, entry.id);
   if (link.empty())
-    return check_cell(run.directory, entry, run.farm.metrics, run.farm.hub, run.farm.scrub.get());
+    return check_cell(run.directory, entry, run.farm.metrics, run.farm.hub, run.farm.texts.get());
   CheckedCell cell;
   cell.id = entry.id;
   cell.hub = run.farm.hub;
@@ -148,7 +148,7 @@ History read_history(const fs::path& run, const ShownFarm& farm,
     EarlierRun one{directory,
                    name_of(directory),
                    date_of(directory),
-                   read_farm(directory, farm.metrics, farm.scrub),
+                   read_farm(directory, farm.metrics, farm.texts),
                    {}};
     one.match = match_cells(farm.record, one.farm.record);
     history.runs.push_back(std::move(one));

@@ -86,7 +86,7 @@ struct Finding {
 std::string index_page(const SiteFrame& site, const ShownFarm& farm,
                        const std::vector<CellSummary>& cells, const std::vector<Finding>& findings,
                        const History& history);
-/// The grid as thumbnails, a table for each section (index_grid.cpp).
+/// The grid without script: a list of all cells (index_grid.cpp).
 void write_grid(Html& html, const SiteFrame& site, const ShownFarm& farm,
                 const std::vector<CellSummary>& cells);
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/base64.hpp"
 #include "core/for_each_whole.hpp"
 #include "core/interrupt.hpp"
 #include "gallery/cell_chunk.hpp"
 #include "gallery/cell_page.hpp"
-#include "gallery/deflated.hpp"
 #include "gallery/derived_pictures.hpp"
 #include "gallery/packed_pixels.hpp"
+#include "gallery/packing.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -71,8 +70,7 @@ ShrunkPictures shrink_pictures(const fs::path& run, const SurfaceOf& surface_of,
 
 records::Thumbnails packed_thumbnails(const std::vector<DisplayImage>& images) {
   PackedPixels packed = packed_pixels(images);
-  records::Thumbnails thumbnails{
-      {}, {}, std::move(packed.ways), base64(deflated(packed.bytes, kMostDeflated))};
+  records::Thumbnails thumbnails{{}, {}, std::move(packed.ways), packed_bytes(packed.bytes)};
   for (const DisplayImage& image : images) {
     thumbnails.widths.push_back(image.width);
     thumbnails.heights.push_back(image.height);
@@ -109,7 +107,7 @@ std::vector<CellSummary> publish_packed_cells(const fs::path& run, const Gallery
     for (std::size_t place = number * kCellsOfChunk; place < end; ++place) {
       throw_if_interrupted();
       const CellEntry& entry = farm.cells[order[place]];
-      CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.scrub.get());
+      CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub, farm.texts.get());
       ShrunkPictures pictures = shrink_pictures(run, options.surface, cell);
       thumbnails.push_back(std::move(pictures.thumbnail));
       CellSummary& summary = summaries[order[place]] = publish_with_history(

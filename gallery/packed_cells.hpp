@@ -1,4 +1,4 @@
-// The cells of a large site: one page for all of them, and their data in few files (decision 38).
+// The cells of a large site: one page for all of them, and their data in few files (decision 11).
 #pragma once
 
 #include "gallery/index_page.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "gallery/predicted.hpp"
+#include "gallery/packing.hpp"
 
 namespace lobelia::gallery {
 namespace {

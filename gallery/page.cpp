@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/version.hpp"
-#include "gallery/page_text.hpp"
+#include "gallery/published_texts.hpp"
 
 namespace lobelia::gallery {
 namespace {

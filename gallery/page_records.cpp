@@ -18,7 +18,6 @@ records::ShownComparison shown_comparison(const CheckedComparison& comparison) {
   data.b = comparison.entry.b;
   data.picture = shown_picture(comparison.png);
   data.white_at = comparison.entry.difference.white_at;
-  data.relative_to_peak = comparison.entry.difference.relative_to_peak;
   data.maps = comparison.maps;
   for (records::ShownMap& map : data.maps) map.script = link_to({map.script});
   if (!comparison.region.empty()) data.region = link_to({comparison.region});

@@ -261,26 +261,6 @@ void math_element(Html& html, std::string_view tag, std::string_view text) {
   math_element(html, tag, {}, text);
 }
 
-std::string without_paths(std::string_view text) {
-  constexpr std::string_view kEnds = " \t\n'\"=(),;";
-  std::string shown;
-  for (std::size_t i = 0; i < text.size();) {
-    const bool begins = text[i] == '/' && (i == 0 || kEnds.find(text[i - 1]) != kEnds.npos);
-    if (!begins) {
-      shown += text[i++];
-      continue;
-    }
-    const std::size_t end = std::min(text.find_first_of(kEnds, i), text.size());
-    std::string_view path = text.substr(i, end - i);
-    while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);
-    const std::size_t slash = path.rfind('/');
-    // "/dev" or "/" tells nothing of a machine.
-    shown += slash == 0 ? path : path.substr(slash + 1);
-    i = end;
-  }
-  return shown;
-}
-
 std::string spoken_name(std::string_view name) {
   std::string spoken(name);
   std::ranges::replace(spoken, '_', ' ');

@@ -1,4 +1,4 @@
-// Texts of records as the pages show them: formulas typeset, and no path of the machine that made them.
+// Texts of records as the pages show them: formulas typeset.
 #pragma once
 
 #include <span>
@@ -18,9 +18,6 @@ void write_math(Html& html, std::string_view text);
 void math_element(Html& html, std::string_view tag, std::string_view text);
 void math_element(Html& html, std::string_view tag, const Attributes& attributes,
                   std::string_view text);
-
-/// The text with the last name of each absolute path in place of the path.
-std::string without_paths(std::string_view text);
 
 /// "spherical gaussian, stable": a name of a record, for people.
 std::string spoken_name(std::string_view name);

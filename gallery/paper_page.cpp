@@ -9,7 +9,7 @@
 #include "gallery/page.hpp"
 #include "gallery/page_text.hpp"
 #include "gallery/views.hpp"
-#include "records/pages.hpp"
+#include "records/paper.hpp"
 
 namespace lobelia::gallery::paper_page {
 namespace {
@@ -197,17 +197,12 @@ std::string finding_of(const PaperFigure& figure, const std::vector<Claim>& clai
   return finding.empty() ? "" : "Claims shown here: " + finding + ".";
 }
 
-void write_figure(ViewPage& page, const std::filesystem::path& run, const PaperFigure& figure,
-                  const std::string& file, const std::vector<Claim>& claims) {
-  Html& html = page.main;
-  const Tag element(
-      html, "figure",
-      {{"class", "chart-figure"}, {"id", figure.id + "-figure"}, {"data-chart", figure.id}});
+void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim>& claims) {
+  const Tag element(html, "figure", {{"class", "chart-figure"}, {"id", figure.id + "-figure"}});
   html.element("h3", figure.title);
   if (const std::string finding = finding_of(figure, claims); !finding.empty())
     html.element("p", {{"class", "finding"}}, finding);
   html.raw(draw_chart(chart_of(figure)));
-  write_study_chart(page, run, {"paper", file});
   const Tag caption(html, "figcaption");
   html.text(figure.description);
   std::vector<std::pair<std::string, std::string>> links;
@@ -216,19 +211,11 @@ void write_figure(ViewPage& page, const std::filesystem::path& run, const PaperF
   write_links(html, "Shows: ", links);
 }
 
-/// The file that "lobelia verify paper --plots" writes.
-std::string file_of(const PaperFigure& figure) {
-  std::string name = figure.id;
-  std::ranges::replace(name, '-', '_');
-  return name + ".svg";
-}
-
-void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& record) {
+void draw(ViewPage& page, const VerifyPaper& record) {
   const std::vector<Claim>& claims = record.claims;
-  records::PaperPage data;
+  std::vector<PaperFigure> figures;
   for (const PaperFigure& figure : record.figures)
-    data.charts.push_back(drawable(figure, data.charts.size() + 1));
-  page.data = records::record_line(data);
+    figures.push_back(drawable(figure, figures.size() + 1));
 
   Html& html = page.main;
   write_lead(
@@ -240,18 +227,17 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& r
   {
     const Tag section(html, "section", {{"class", "figures-section"}});
     html.element("h2", "The curves behind the claims");
-    if (data.charts.empty())
+    if (figures.empty())
       write_absence(html, "The record has none: 'lobelia verify paper --plots' draws them.");
     const Tag grid(html, "div", {{"class", "figure-grid"}});
-    for (std::size_t i = 0; i < data.charts.size(); ++i)
-      write_figure(page, run, data.charts[i], file_of(record.figures[i]), claims);
+    for (const PaperFigure& figure : figures) write_figure(html, figure, claims);
   }
   {
     const Tag section(html, "section", {{"class", "claims"}});
     html.element("h2", "Claim by claim");
     const Tag grid(html, "div", {{"class", "claim-grid"}});
     for (const Claim& claim : claims)
-      write_claim(html, claim, id_of(claim, claims), data.charts, claims);
+      write_claim(html, claim, id_of(claim, claims), figures, claims);
   }
   write_source(html, shell_join(record.command), kRecord);
   page.finding = fmt::format("Of the paper’s claims, {} hold and {} could not be reproduced.",
@@ -262,9 +248,7 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyPaper& r
 }
 
 std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<VerifyPaper>(
-      run, kRecord, kTitle,
-      [&](ViewPage& page, const VerifyPaper& record) { draw(page, run, record); });
+  return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "gallery/publisher.hpp"
 #include "gallery/shown_farm.hpp"
 #include "gallery/single_file.hpp"
-#include "gallery/zip_file.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -23,11 +22,15 @@ namespace fs = std::filesystem;
 /// Limits on float pictures and maps, which GalleryOptions::share_of_bytes scales down.
 constexpr double kBytesOfPixels = 40 << 20, kBytesOfComparison = 512 << 10;
 
-enum class Form { kFolder, kZip, kPage };
+enum class Form { kFolder, kPage };
 
 Form form_of(const fs::path& out) {
   const std::string ending = lower_case(out.extension().string());
-  return ending == ".zip" ? Form::kZip : ending == ".html" ? Form::kPage : Form::kFolder;
+  if (ending == ".zip")
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: no zip is written: publish a folder, then type zip -r {} FOLDER",
+                            printable_path(out.string()), shell_quote(out.string())));
+  return ending == ".html" ? Form::kPage : Form::kFolder;
 }
 
 [[noreturn]] void refuse(const fs::path& out, const std::string& why) {
@@ -67,15 +70,14 @@ void check_place(const fs::path& run, const fs::path& out, Form form) {
   const bool is_ours = form == Form::kFolder
                            ? fs::is_directory(status) && (kind_of_site(out) == SiteKind::kGallery ||
                                                           is_empty_but_for_parts(out))
-                           : fs::is_regular_file(status) &&
-                                 (form == Form::kZip ? is_our_zip(out) : is_our_page(out));
+                           : fs::is_regular_file(status) && is_our_page(out);
   if (!is_ours)
     refuse(out, "is there already, and is not a gallery that was published; give another name");
   if (form == Form::kFolder && fs::exists(out / "farm.json", error))
     refuse(out, "is the directory of a farm, which publishing must not change");
 }
 
-/// "gallery" for "out/gallery/" and "out/gallery.zip".
+/// "out/gallery" for "out/gallery/".
 fs::path without_slash(const fs::path& out) { return out.has_filename() ? out : out.parent_path(); }
 
 PublishedGallery write_folder(const fs::path& run, GalleryOptions options, const fs::path& out) {
@@ -126,20 +128,6 @@ PublishedGallery write_page(const fs::path& run, GalleryOptions options, const f
   return made;
 }
 
-PublishedGallery write_zipped(const fs::path& run, GalleryOptions options, const fs::path& out) {
-  const TemporaryDirectory site;
-  options.is_part = true;
-  options.site = site.path();
-  PublishedGallery made = write_gallery(run, options);
-  const std::string stem = out.stem().string();
-  const bool may_be_name =
-      is_plain_name(stem) && stem.find('\\') == stem.npos && escape_invalid_utf8(stem) == stem;
-  write_zip(site.path(), may_be_name ? stem : "gallery", out);
-  interrupts_come_too_late();
-  made.index = out;
-  return made;
-}
-
 }  // namespace
 
 PublishedGallery write_publication(const fs::path& run, const GalleryOptions& given) {
@@ -153,8 +141,7 @@ PublishedGallery write_publication(const fs::path& run, const GalleryOptions& gi
   if (form == Form::kFolder) return write_folder(run, std::move(options), out);
   if (out.has_parent_path()) make_directories(out.parent_path());
   require_writable(out);
-  return form == Form::kZip ? write_zipped(run, std::move(options), out)
-                            : write_page(run, std::move(options), out);
+  return write_page(run, std::move(options), out);
 }
 
 }  // namespace lobelia::gallery

@@ -133,8 +133,8 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
   if (!is_within(run, from))
     throw Error(ExitCode::kInput,
                 from.string() + ": a link that leads out of the run is not published");
-  if (scrub_)
-    if (const auto scrubbed = scrub_->file(from)) return write(name, *scrubbed);
+  if (texts_)
+    if (const auto published = texts_->file(from)) return write(name, *published);
   add_to_list(name);
   const auto time = fs::last_write_time(from, error);
   if (error) throw failure_of(from.string() + ": cannot read", error.value(), ExitCode::kInput);

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/files.hpp"
-#include "gallery/scrub.hpp"
+#include "gallery/published_texts.hpp"
 
 namespace lobelia::gallery {
 
@@ -30,8 +30,8 @@ class Publisher {
   /// none. `own` are the files by which kind_of_site() knows the site; they are in the list from the beginning.
   explicit Publisher(std::filesystem::path site, std::set<std::string> own = {"index.html"});
 
-  /// What copies of the run's files leave out; null: nothing. Before the first copy().
-  void set_scrub(std::shared_ptr<const Scrub> scrub) { scrub_ = std::move(scrub); }
+  /// How the texts of the run's files are published; null: as they are. Before the first copy().
+  void set_texts(std::shared_ptr<const PublishedTexts> texts) { texts_ = std::move(texts); }
 
   const std::filesystem::path& site() const { return site_; }
 
@@ -64,7 +64,7 @@ class Publisher {
 
   std::filesystem::path site_;
   const std::set<std::string> own_;
-  std::shared_ptr<const Scrub> scrub_;
+  std::shared_ptr<const PublishedTexts> texts_;
   std::set<std::string> earlier_;
   std::map<std::string, std::string> earlier_keys_;  ///< by name of a derived file
   std::once_flag begun_;                             ///< once the first file is changed

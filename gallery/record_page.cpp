@@ -1,7 +1,6 @@
 #include "core/text.hpp"
 #include "gallery/page.hpp"
-#include "gallery/page_text.hpp"
-#include "gallery/safe_svg.hpp"
+#include "gallery/published_texts.hpp"
 #include "gallery/views.hpp"
 
 namespace lobelia::gallery {
@@ -27,22 +26,6 @@ void write_source(Html& html, const std::string& command, const char* file) {
   html.text("All of it is in ");
   html.element("a", {{"href", file}}, file);
   html.text(".");
-}
-
-void write_study_chart(ViewPage& page, const std::filesystem::path& run,
-                       const std::array<std::string, 2>& at) {
-  const auto& [folder, file] = at;
-  if (!is_plain_name(file) || !file.ends_with(".svg")) return;
-  const std::filesystem::path path = run / folder / file;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error) ||
-      std::filesystem::file_size(path, error) > kMaxChartBytes ||
-      !is_safe_svg(read_file(path, kMaxChartBytes)))
-    return;
-  Html& html = page.main;
-  const Tag line(html, "p", {{"class", "study-chart"}});
-  html.element("a", {{"href", link_to({folder, file})}}, "The study’s own drawing (SVG)");
-  page.files.push_back(folder + "/" + file);
 }
 
 Attributes scroll_box(const std::string& label) {

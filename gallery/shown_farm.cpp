@@ -101,7 +101,7 @@ ShownFarm show(records::Farm record, const Metrics& metrics) {
 }
 
 ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics,
-                    std::shared_ptr<const Scrub> scrub) {
+                    std::shared_ptr<const PublishedTexts> texts) {
   const auto path = directory / "farm.json";
   if (file_type_at(path) == std::filesystem::file_type::not_found)
     throw Error(ExitCode::kInput,
@@ -109,8 +109,8 @@ ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metri
                     ": no such file; a gallery is made of a directory that 'lobelia farm' wrote");
   records::Origin origin;
   ShownFarm farm =
-      show(read_scrubbed<records::Farm>(path, scrub.get(), path.string(), &origin), metrics);
-  farm.scrub = std::move(scrub);
+      show(read_published<records::Farm>(path, texts.get(), path.string(), &origin), metrics);
+  farm.texts = std::move(texts);
   farm.made_by = origin.made_by;
   std::set<std::string> ids;
   for (std::size_t i = 0; i < farm.cells.size(); ++i)

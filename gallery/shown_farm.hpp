@@ -5,7 +5,7 @@
 #include <map>
 
 #include "gallery/metrics.hpp"
-#include "gallery/scrub.hpp"
+#include "gallery/published_texts.hpp"
 #include "gallery/status.hpp"
 #include "records/farm.hpp"
 
@@ -32,8 +32,8 @@ struct ShownFarm {
   bool is_report = false;
   std::string made_by;
   Metrics metrics;
-  std::shared_ptr<const Scrub>
-      scrub;                     ///< of all records of the run; null: they are shown as they are
+  std::shared_ptr<const PublishedTexts>
+      texts;                     ///< of all records of the run; null: they are shown as they are
   std::vector<CellEntry> cells;  ///< in the record's order
   std::map<std::vector<int>, std::size_t> cell_at;  ///< the first cell at each position
 
@@ -58,6 +58,6 @@ ShownFarm show(records::Farm record, const Metrics& metrics);
 
 /// Throws Error(kInput), naming the file and the key.
 ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics = {},
-                    std::shared_ptr<const Scrub> scrub = nullptr);
+                    std::shared_ptr<const PublishedTexts> texts = nullptr);
 
 }  // namespace lobelia::gallery

@@ -20,7 +20,7 @@ constexpr int kSmallSide = 160;  // pixels, of the longer side
 /// A picture file up to this size is its own preview.
 constexpr std::uintmax_t kLightBytes = 48 << 10;
 constexpr std::uint64_t kMostShownBytes = std::uint64_t{1} << 28;  // of a PNG file
-/// Pixels a side of a PNG that is read in this process: a process for each (decision 17) would be most of the work.
+/// Pixels a side of a PNG that is read in this process: a process for each (decision 8) would be most of the work.
 constexpr int kMostPlainSide = 4096;
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "gallery/page_text.hpp"
 #include "gallery/picture.hpp"
 #include "gallery/views.hpp"
-#include "records/pages.hpp"
+#include "records/stability.hpp"
 
 namespace lobelia::gallery::stability_page {
 namespace {
@@ -257,18 +257,6 @@ void write_group(Html& html, const VerifyStability& data, const std::string& gro
     if (one.group == group) write_case(html, one);
 }
 
-records::StabilityPage page_data(const VerifyStability& data) {
-  records::StabilityPage page;
-  page.curves = data.curves;
-  for (const records::StabilityOfLobe& s : data.by_exponent)
-    page.summaries.push_back({s.group,
-                              s.lobe,
-                              s.exponent.value_or(0),
-                              {s.naive.of_peak, s.naive.ulp},
-                              {s.ours.of_peak, s.ours.ulp}});
-  return page;
-}
-
 void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStability& data) {
   Html& html = page.main;
   write_lead(
@@ -300,7 +288,6 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
   write_source(html, shell_join(data.command), kRecord);
   if (!data.instruction_set.empty())
     html.element("p", "Instruction set: " + data.instruction_set + ".");
-  page.data = records::record_line(page_data(data));
   page.finding =
       data.outside == 0
           ? fmt::format("All {} hard cases stay within their stated error bounds.",

@@ -1,14 +1,13 @@
 // The pages of the site beside the grid and the cells. Each is a file NAME_page.cpp and a name in views.cpp.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <span>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/html.hpp"
-#include "gallery/scrub.hpp"
+#include "gallery/published_texts.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -45,7 +44,7 @@ std::optional<ViewPage> record_page(const RunFiles& run, const char* file, const
   if (file_type_at(run / file) == std::filesystem::file_type::not_found) return std::nullopt;
   try {
     records::Origin origin;
-    const T record = read_scrubbed<T>(run / file, run.scrub, file, &origin);
+    const T record = read_published<T>(run / file, run.texts, file, &origin);
     ViewPage page{title, origin.made_by, {}, "", {file}};
     draw(page, record);
     return page;
@@ -59,10 +58,6 @@ std::optional<ViewPage> record_page(const RunFiles& run, const char* file, const
 void write_lead(Html& html, const char* title, const std::string& words);
 /// The command that measured the record, and a link to it.
 void write_source(Html& html, const std::string& command, const char* file);
-/// A link to the SVG file that a study drew at RUN/at[0]/at[1], which is published with the page. Nothing if the file is not
-/// there, or has more in it than a chart (safe_svg.hpp).
-void write_study_chart(ViewPage& page, const std::filesystem::path& run,
-                       const std::array<std::string, 2>& at);
 /// Attributes of a <div> in which a wide table scrolls.
 Attributes scroll_box(const std::string& label);
 

@@ -1,17 +1,12 @@
 // Long work: farms and benchmarks.
 #include "farm/farm.hpp"
 
-#include <algorithm>
-
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
-#include "core/host.hpp"
-#include "core/image_io_module.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
 #include "python/module.hpp"
 #include "records/record.hpp"
-#include "renderer/kernels/kernels.hpp"
 #include "studies/cost/benchmarks.hpp"
 
 namespace lobelia::python {
@@ -90,39 +85,15 @@ std::string cost(const py::list& scenes, const py::dict& given, const py::object
   options.effort = effort == "quick"      ? cost::Effort::kQuick
                    : effort == "thorough" ? cost::Effort::kThorough
                                           : cost::Effort::kUsual;
-  for (const auto& [engine, program] : programs.given())
-    options.programs.emplace_back(engine, program.string());
-  // The level of whole programs starts ours too; this process is Python.
-  const std::string ours = find_companion("lobelia").string();
-  options.programs.emplace_back("lobelia", ours);
-  std::vector<const cost::Benchmark*> chosen;
+  options.programs = programs.given();
   std::vector<std::string_view> names;
-  for (const cost::Benchmark& level : cost::benchmarks()) {
-    names.push_back(level.name);
-    const bool named = std::ranges::count(levels, level.name) > 0;
-    const bool lacks_scene = level.needs_scenes && scenes.empty();
-    if (named && lacks_scene)
-      throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", level.name));
-    const bool lacks_program = level.measure == &cost::measure_engines && ours.empty();
-    if (named && lacks_program)
-      throw Error(ExitCode::kUsage,
-                  fmt::format("--level {} needs the program lobelia, which is not installed with "
-                              "this package",
-                              level.name));
-    if (named || (levels.empty() && !lacks_scene && !lacks_program)) chosen.push_back(&level);
-  }
+  for (const cost::Benchmark& level : cost::benchmarks()) names.push_back(level.name);
   for (const std::string& level : levels) cli::chosen_place(level, "--level", names);
+  const auto chosen = cost::chosen_benchmarks(levels, !scenes.empty());
   std::string record;
   run(progress, [&](const ShowProgress& show) {
-    records::Cost report{cli::command_line(), records::this_host(), kernels().instruction_set, {}};
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      show(double(i) / double(chosen.size()));
-      for (cost::Table& table : chosen[i]->measure(options)) {
-        cost::add_fronts(table);
-        report.tables.push_back(std::move(table));
-      }
-    }
-    record = records::record_text(report);
+    options.on_progress = [&](double done, const std::string&) { show(done); };
+    record = records::record_text(cost::measure(chosen, options, cli::command_line()));
   });
   return record;
 }

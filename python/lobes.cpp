@@ -1,7 +1,8 @@
-// Lobes and models on arrays. All arguments are broadcast.
+// Lobes and models on arrays.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "cli/options.hpp"
 #include "core/constants.hpp"
@@ -55,135 +56,42 @@ Normalisation normalisation_of(const std::string& name) {
                 find_normalisation);
 }
 
-/// One array of each argument and the result, with the strides of the broadcast shape.
+/// Flat arrays of one length. The exponents are sorted, or a single one is that of all (_lobes.py).
 template <class T>
-class Broadcast {
- public:
-  using Array = py::array_t<T, py::array::forcecast>;
+using Flat = py::array_t<T, py::array::c_style | py::array::forcecast>;
+using Doubles = Flat<double>;
 
-  Broadcast(std::vector<Array> given) : given_(std::move(given)) {
-    for (const Array& one : given_)
-      if (std::size_t(one.ndim()) > shape_.size()) shape_.resize(std::size_t(one.ndim()), 1);
-    for (const Array& one : given_)
-      for (std::size_t axis = first_axis(one); axis < shape_.size(); ++axis) {
-        const py::ssize_t size = one.shape(py::ssize_t(axis - first_axis(one)));
-        if (size == 1) continue;
-        if (shape_[axis] != 1 && shape_[axis] != size)
-          throw Error(ExitCode::kUsage,
-                      fmt::format("shapes {} cannot be broadcast together", shapes_text()));
-        shape_[axis] = size;
-      }
-    result_ = Array(shape_);
-    for (const Array& one : given_) {
-      std::vector<py::ssize_t> strides(shape_.size(), 0);
-      for (std::size_t axis = first_axis(one); axis < shape_.size(); ++axis)
-        if (const auto own = py::ssize_t(axis - first_axis(one)); one.shape(own) != 1)
-          strides[axis] = one.strides(own);
-      strides_.push_back(std::move(strides));
-    }
-    strides_.emplace_back(result_.strides(), result_.strides() + shape_.size());
-    for (Array& one : given_) data_.push_back(reinterpret_cast<const char*>(one.data()));
-    data_.push_back(reinterpret_cast<const char*>(result_.data()));
+/// Calls f(exponent, begin, end) for each run of equal exponents, so that what depends on it is made once.
+template <class T, class F>
+void for_each_exponent(std::span<const T> exponents, std::size_t count, F f) {
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const T exponent = exponents[exponents.size() == 1 ? 0 : begin];
+    end = exponents.size() == 1 ? count : begin;
+    while (end < count && exponents[end] == exponent) ++end;
+    end = std::max(end, begin + 1);  // a NaN equals nothing
+    f(checked_exponent(double(exponent)), begin, end);
   }
+}
 
-  /// Calls visit(places, others) for each combination of the argument's own values, and others(visit) calls
-  /// visit(row) for all that is combined with it. So what depends on the argument is made once for each of its values.
-  template <class Visit>
-  void for_each_of(std::size_t argument, Visit visit) const {
-    std::vector<Axis> own, others;
-    for (std::size_t axis = 0; axis < shape_.size(); ++axis) {
-      Axis one{shape_[axis], {}};
-      for (const auto& strides : strides_) one.strides.push_back(strides[axis]);
-      if (one.size != 1) (one.strides[argument] != 0 ? own : others).push_back(std::move(one));
-    }
-    merge(own);
-    merge(others);
-    walk(own, data_, [&](const Row& outer) {
-      for (py::ssize_t i = 0; i < outer.count; ++i)
-        visit(outer.at(argument, i), [&](auto inner) { walk(others, outer.places_at(i), inner); });
+template <class T>
+std::span<const T> values_of(const Flat<T>& array) {
+  return {array.data(), std::size_t(array.size())};
+}
+
+/// The result of f(exponent, begin, end, values), which sets values[begin, end), without the GIL.
+template <class T, class F>
+py::array computed(const Flat<T>& exponents, std::size_t count, F f) {
+  Flat<T> result{py::ssize_t(count)};
+  T* const values = result.mutable_data();
+  const std::span<const T> of_all = values_of(exponents);
+  {
+    const py::gil_scoped_release released;
+    for_each_exponent(of_all, count, [&](double exponent, std::size_t begin, std::size_t end) {
+      f(exponent, begin, end, values);
     });
   }
-
-  using Places = std::vector<const char*>;
-  /// Elements at equal distances in every array.
-  struct Row {
-    const Places& places;
-    py::ssize_t count;
-    const std::vector<py::ssize_t>& strides;
-
-    const T& at(std::size_t argument, py::ssize_t i) const {
-      return *reinterpret_cast<const T*>(places[argument] + i * strides[argument]);
-    }
-    /// The result has no other owner yet.
-    T& result(py::ssize_t i) const {
-      return *reinterpret_cast<T*>(const_cast<char*>(places.back() + i * strides.back()));
-    }
-    Places places_at(py::ssize_t i) const {
-      Places moved = places;
-      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += i * strides[k];
-      return moved;
-    }
-  };
-  const Array& array() const { return result_; }
-
- private:
-  std::size_t first_axis(const Array& one) const { return shape_.size() - std::size_t(one.ndim()); }
-  std::string shapes_text() const {
-    std::string text;
-    for (const Array& one : given_)
-      text += fmt::format("{}({})", text.empty() ? "" : ", ",
-                          fmt::join(one.shape(), one.shape() + one.ndim(), ", "));
-    return text;
-  }
-  struct Axis {
-    py::ssize_t size;
-    std::vector<py::ssize_t> strides;  ///< bytes, of each argument and of the result
-  };
-  /// Makes one axis of two where the arrays allow it, so that rows are long.
-  static void merge(std::vector<Axis>& axes) {
-    for (std::size_t i = axes.size(); i-- > 1;) {
-      const Axis& inner = axes[i];
-      const auto fits = [&](std::size_t k) {
-        return axes[i - 1].strides[k] == inner.strides[k] * inner.size;
-      };
-      bool all_fit = true;
-      for (std::size_t k = 0; k < inner.strides.size(); ++k) all_fit = all_fit && fits(k);
-      if (!all_fit) continue;
-      axes[i - 1] = {axes[i - 1].size * inner.size, inner.strides};
-      axes.erase(axes.begin() + std::ptrdiff_t(i));
-    }
-  }
-  template <class Visit>
-  static void walk(const std::vector<Axis>& axes, Places places, Visit&& visit) {
-    for (const Axis& axis : axes)
-      if (axis.size == 0) return;
-    const Axis single{1, std::vector<py::ssize_t>(places.size(), 0)};
-    const Axis& last = axes.empty() ? single : axes.back();
-    const std::size_t outer = axes.empty() ? 0 : axes.size() - 1;
-    std::vector<py::ssize_t> index(outer, 0);
-    for (;;) {
-      visit(Row{places, last.size, last.strides});
-      std::size_t k = outer;
-      for (; k > 0; --k) {
-        const Axis& axis = axes[k - 1];
-        const bool ends = ++index[k - 1] == axis.size;
-        const py::ssize_t steps = ends ? 1 - axis.size : 1;
-        for (std::size_t i = 0; i < places.size(); ++i) places[i] += steps * axis.strides[i];
-        if (!ends) break;
-        index[k - 1] = 0;
-      }
-      if (k == 0) return;
-    }
-  }
-
-  std::vector<Array> given_;
-  std::vector<py::ssize_t> shape_;
-  Array result_;
-  std::vector<std::vector<py::ssize_t>> strides_;  ///< of each argument, then of the result
-  Places data_;
-};
-
-using Doubles = Broadcast<double>;
+  return result;
+}
 
 void require_lobe_at(const LobeId& lobe, double n) {
   if (lobe.formula) cli::require_lobe({{}, lobe, {}, n});
@@ -207,32 +115,22 @@ struct Chunk {
   }
 };
 
-/// s, n: float32 by the kernels, in chunks of their size.
-py::array value32(const LobeId& lobe, const Broadcast<float>::Array& s,
-                  const Broadcast<float>::Array& n) {
-  const Broadcast<float> all({s, n});
-  {
-    const py::gil_scoped_release released;
-    const KernelTable::LobeValue kernel = kernels().lobe32(lobe);
-    Chunk chunk;
-    all.for_each_of(1, [&](float exponent, const auto& for_others) {
-      const Highlight highlight{{}, lobe, {}, checked_exponent(double(exponent))};
-      require_lobe_at(lobe, highlight.exponent);
-      for_others([&](const auto& row) {
-        for (py::ssize_t begin = 0; begin < row.count; begin += kChunk) {
-          const auto count = std::min(py::ssize_t(kChunk), row.count - begin);
-          const bool is_dense = row.strides[0] == sizeof(float);
-          if (is_dense) std::copy_n(&row.at(0, begin), count, chunk.given.begin());
-          for (py::ssize_t i = 0; i < count && !is_dense; ++i)
-            chunk.given[std::size_t(i)] = row.at(0, begin + i);
-          chunk.compute(kernel, highlight, std::size_t(count));
-          for (py::ssize_t i = 0; i < count; ++i)
-            row.result(begin + i) = chunk.value[std::size_t(i)];
-        }
-      });
-    });
-  }
-  return all.array();
+/// Float32 by the kernels, in chunks of their size.
+py::array value32(const LobeId& lobe, const Flat<float>& n, const Flat<float>& s) {
+  const KernelTable::LobeValue kernel = kernels().lobe32(lobe);
+  const std::span<const float> given = values_of(s);
+  Chunk chunk;
+  return computed(n, given.size(),
+                  [&](double exponent, std::size_t begin, std::size_t end, float* values) {
+                    const Highlight highlight{{}, lobe, {}, exponent};
+                    require_lobe_at(lobe, exponent);
+                    for (std::size_t at = begin; at < end; at += kChunk) {
+                      const std::size_t count = std::min(kChunk, end - at);
+                      std::copy_n(&given[at], count, chunk.given.begin());
+                      chunk.compute(kernel, highlight, count);
+                      std::copy_n(chunk.value.begin(), count, values + at);
+                    }
+                  });
 }
 
 enum class LobeFunction { kValue, kSample, kDensity };
@@ -248,43 +146,30 @@ double evaluate(const PreparedLobe& lobe, double x, LobeFunction function) {
   return s > 1 ? 0 : lobe.density(s);
 }
 
-/// The first argument is s, or the random number of kSample.
-py::array lobe64(const LobeId& lobe, const Doubles::Array& first, const Doubles::Array& n,
+/// The second array is s, or the random number of kSample.
+py::array lobe64(const LobeId& lobe, const Doubles& n, const Doubles& second,
                  LobeFunction function) {
-  const Doubles all({first, n});
-  {
-    const py::gil_scoped_release released;
-    all.for_each_of(1, [&](double given, const auto& for_others) {
-      const double exponent = checked_exponent(given);
-      require_lobe_at(lobe, exponent);
-      const PreparedLobe prepared = prepare(lobe, exponent);
-      for_others([&](const auto& row) {
-        for (py::ssize_t i = 0; i < row.count; ++i)
-          row.result(i) = evaluate(prepared, row.at(0, i), function);
-      });
-    });
-  }
-  return all.array();
+  const std::span<const double> given = values_of(second);
+  return computed(n, given.size(),
+                  [&](double exponent, std::size_t begin, std::size_t end, double* values) {
+                    require_lobe_at(lobe, exponent);
+                    const PreparedLobe prepared = prepare(lobe, exponent);
+                    for (std::size_t i = begin; i < end; ++i)
+                      values[i] = evaluate(prepared, given[i], function);
+                  });
 }
 
-/// function(highlight, argument), where argument(k) is the k-th of `arguments`; the first one is the exponent.
+/// function(highlight, i) for each place of arrays of that length.
 template <class Function>
-py::array of_highlight(Highlight highlight, std::vector<Doubles::Array> arguments,
+py::array of_highlight(Highlight highlight, const Doubles& n, py::ssize_t count,
                        Function function) {
-  const Doubles all(std::move(arguments));
-  {
-    const py::gil_scoped_release released;
-    all.for_each_of(0, [&](double exponent, const auto& for_others) {
-      highlight.exponent = checked_exponent(exponent);
-      cli::require_lobe(highlight);
-      for_others([&](const auto& row) {
-        for (py::ssize_t i = 0; i < row.count; ++i)
-          row.result(i) =
-              function(std::as_const(highlight), [&](std::size_t k) { return row.at(k, i); });
-      });
-    });
-  }
-  return all.array();
+  return computed(n, std::size_t(count),
+                  [&](double exponent, std::size_t begin, std::size_t end, double* values) {
+                    highlight.exponent = exponent;
+                    cli::require_lobe(highlight);
+                    for (std::size_t i = begin; i < end; ++i)
+                      values[i] = function(std::as_const(highlight), i);
+                  });
 }
 
 double checked_incidence(double radians) {
@@ -326,16 +211,12 @@ void add_lobes(py::module_& module) {
       .def_property_readonly("formula", [](const LobeId& lobe) { return info(lobe).formula; })
       .def_property_readonly("source", [](const LobeId& lobe) { return info(lobe).source; })
       .def("value32", &value32)
-      .def("value64",
-           [](const LobeId& lobe, const Doubles::Array& s, const Doubles::Array& n) {
-             return lobe64(lobe, s, n, LobeFunction::kValue);
-           })
-      .def("sample",
-           [](const LobeId& lobe, const Doubles::Array& u, const Doubles::Array& n) {
-             return lobe64(lobe, u, n, LobeFunction::kSample);
-           })
-      .def("density", [](const LobeId& lobe, const Doubles::Array& s, const Doubles::Array& n) {
-        return lobe64(lobe, s, n, LobeFunction::kDensity);
+      .def("value64", [](const LobeId& lobe, const Doubles& n,
+                         const Doubles& s) { return lobe64(lobe, n, s, LobeFunction::kValue); })
+      .def("sample", [](const LobeId& lobe, const Doubles& n,
+                        const Doubles& u) { return lobe64(lobe, n, u, LobeFunction::kSample); })
+      .def("density", [](const LobeId& lobe, const Doubles& n, const Doubles& s) {
+        return lobe64(lobe, n, s, LobeFunction::kDensity);
       });
   py::class_<Highlight>(module, "Highlight")
       .def(py::init(
@@ -343,29 +224,30 @@ void add_lobes(py::module_& module) {
             return Highlight{model_of(model), lobe, normalisation_of(normalisation)};
           }))
       .def("coefficient",
-           [](const Highlight& highlight, const Doubles::Array& n) {
-             return of_highlight(highlight, {n}, [](const Highlight& one, auto) {
+           [](const Highlight& highlight, const Doubles& n) {
+             return of_highlight(highlight, n, n.size(), [](const Highlight& one, std::size_t) {
                return radiance_coefficient(one);
              });
            })
       .def("albedo",
-           [](const Highlight& highlight, const Doubles::Array& n, const Doubles::Array& incidence,
+           [](const Highlight& highlight, const Doubles& n, const Doubles& incidence,
               bool of_light) {
-             return of_highlight(highlight, {n, incidence},
-                                 [of_light](const Highlight& one, auto argument) {
-                                   const double radians = checked_incidence(argument(1));
+             const std::span<const double> angles = values_of(incidence);
+             return of_highlight(highlight, n, incidence.size(),
+                                 [&](const Highlight& one, std::size_t i) {
+                                   const double radians = checked_incidence(angles[i]);
                                    return of_light ? directional_albedo_of_light(one, radians)
                                                    : directional_albedo(one, radians);
                                  });
            })
-      .def("radiance",
-           [](const Highlight& highlight, const Doubles::Array& n, const Doubles::Array& n_dot_l,
-              const Doubles::Array& n_dot_v, const Doubles::Array& s) {
-             return of_highlight(
-                 highlight, {n, n_dot_l, n_dot_v, s}, [](const Highlight& one, auto argument) {
-                   return checked_radiance(one, argument(1), argument(2), argument(3));
-                 });
-           });
+      .def("radiance", [](const Highlight& highlight, const Doubles& n, const Doubles& n_dot_l,
+                          const Doubles& n_dot_v, const Doubles& s) {
+        const std::span<const double> light = values_of(n_dot_l), eye = values_of(n_dot_v),
+                                      versine = values_of(s);
+        return of_highlight(highlight, n, s.size(), [&](const Highlight& one, std::size_t i) {
+          return checked_radiance(one, light[i], eye[i], versine[i]);
+        });
+      });
 }
 
 }  // namespace lobelia::python

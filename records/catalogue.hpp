@@ -19,11 +19,11 @@ struct Kind {
 /// In the order of their names.
 std::span<const Kind> kinds();
 
-/// The JSON Schema (draft 7) of a kind: docs/reference/NAME.schema.json.
+/// The JSON Schema (draft 7) of a kind: NAME.schema.json.
 std::string schema_text(const Kind& kind);
 /// The reference page of a kind, in Markdown.
 std::string reference_page(const Kind& kind);
-/// The list of all kinds, in Markdown: docs/reference/README.md.
+/// The list of all kinds, in Markdown: README.md of the reference pages.
 std::string reference_index();
 /// gallery/web/src/records.ts: an interface for each struct that the pages' scripts receive.
 std::string typescript_text();

@@ -47,8 +47,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("iccProfileIsSrgb", "its primaries and curves are those of sRGB, which is assumed");
     t.key("iccProfileApplied",
           "values became light by it: those of integers do, unless it is sRGB's");
-    t.key("gainMap", "of a JPEG: \"applied\", \"left out\" or \"for SDR\"; missing if it has none")
-        .if_any();
+    t.key("gainMap", "\"not applied\" of a JPEG with a gain map; missing if it has none").if_any();
   });
   tables.define<PicturesRead>("How both files were read.");
   tables.define<NonfinitePlace>("A value that is not finite.", [](auto& t) {

@@ -6,14 +6,7 @@ void define_cost_tables(Tables& tables) {
   tables.define<CostError>("A kind of error of a table.");
   tables.define<LobeErrors>("Errors of a lobe by itself.",
                             [](auto& t) { t.all().may_be_nonfinite(); });
-  tables.define<CircuitErrors>("Errors of a circuit in fixed point, by source.", [](auto& t) {
-    t.keys({"shape", "rounding", "quantisation"}).may_be_nonfinite();
-  });
-  tables.define<CostFacts>("What else was counted.", [](auto& t) {
-    t.key("kernel").if_any();
-    t.keys({"secondsSaved", "stageSeconds", "secondsOfTinyCall"}).unit("seconds");
-    t.key("work", "by effect");
-  });
+  tables.define<CostFacts>("What else was counted.");
   tables.define<CostVariant>("A variant of what the table is about.", [](auto& t) {
     t.key("seconds", "of one of what the table counts");
     t.key("errors").at_least(0).may_be_nonfinite();

@@ -17,24 +17,11 @@ struct LobeErrors {
   std::optional<double> max_at_most;
 };
 
-struct CircuitErrors {
-  double shape = 0, rounding = 0, quantisation = 0;
-  std::size_t steps = 0, steps_looked_at = 0;
-};
-
 struct CostFacts {
   std::optional<Operations> operations;
   std::optional<LobeErrors> shape, rounding;
-  std::optional<std::size_t> numbers_looked_at;
-  std::optional<CircuitErrors> circuit;
-  std::optional<int> samples;
-  std::string kernel;
   std::optional<double> predicted_cost;
   std::optional<Rays> rays;
-  std::optional<double> rays_saved, seconds_saved;
-  std::optional<Named<Work>> work;
-  std::optional<Named<double>> stage_seconds;
-  std::optional<double> seconds_of_tiny_call;
 };
 
 struct CostVariant {

@@ -53,7 +53,6 @@ void define_page_tables(Tables& tables) {
   tables.define<ShownComparison>("A comparison of two engines' pictures.", [](auto& t) {
     t.key("picture", "of the difference").or_null();
     t.keys({"whiteAt", "worstY"}).or_null().may_be_nonfinite();
-    t.key("relativeToPeak").or_null();
     t.key("worstX", "pixel of the largest difference").or_null().may_be_nonfinite();
     t.key("region", "script with the PixelRuns of the highlight").if_any();
   });
@@ -111,15 +110,9 @@ void define_page_tables(Tables& tables) {
     t.key("ways", "as in PackedShown");
     t.key("pixels", "all pictures as gallery/packed_pixels.hpp has them; base64, deflated");
   });
-  tables.define<StabilitySummary>("The largest errors of a lobe: of the peak, and in ulp.",
-                                  [](auto& t) {
-                                    t.keys({"naive", "ours"}).may_be_nonfinite();
-                                  });
-  tables.define<StabilityPage>("The page of the hard cases.");
   tables.define<InlinedPage>("A page of a report in one file.", [](auto& t) {
     t.key("main", "markup of its <main>").most_text(std::size_t{1} << 26);
   });
-  tables.define<PaperPage>("The page of the paper's claims.");
 }
 
 }  // namespace lobelia::records

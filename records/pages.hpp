@@ -2,8 +2,6 @@
 #pragma once
 
 #include "records/models.hpp"
-#include "records/paper.hpp"
-#include "records/stability.hpp"
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {
@@ -91,7 +89,7 @@ struct ShownMap {
 struct ShownComparison {
   std::string a, b;
   std::optional<ShownPicture> picture;
-  std::optional<double> white_at, relative_to_peak;
+  std::optional<double> white_at;
   std::vector<ShownMap> maps;
   std::optional<double> worst_x, worst_y;
   std::string region;
@@ -170,27 +168,12 @@ struct Thumbnails {
   std::string pixels;
 };
 
-struct StabilitySummary {
-  std::string group, lobe;
-  double exponent = 0;
-  std::array<double, 2> naive{}, ours{};
-};
-
-struct StabilityPage {
-  std::vector<StabilitySummary> summaries;
-  std::vector<StabilityCurve> curves;
-};
-
-struct PaperPage {
-  std::vector<PaperFigure> charts;
-};
-
 /// A page of a report in one file.
 struct InlinedPage {
   std::string view, title, main;
 };
 
-/// The explorer's page has HighlightTables with rows as second differences.
+/// The explorer's page has the whole HighlightTables.
 using ExplorerPage = HighlightTables;
 
 void define_page_tables(Tables& tables);

@@ -103,7 +103,6 @@ struct Render {
 
 struct EngineSeconds {
   double total = 0;
-  std::optional<double> start, parse, trace, write;
 };
 
 struct Reference {

@@ -44,7 +44,6 @@ void define_shader_check_tables(Tables& tables) {
   tables.define<ShaderCost>("What a call costs.", [](auto& t) {
     t.key("name", "function, ours or pow").not_empty();
     t.key("instructions", "of SPIR-V, optimised by spirv-opt, that compute, compare or branch");
-    t.key("seconds", "of a call, without reading the arguments");
   });
   tables.define<ShaderCheck>("A shader function against a model: 'lobelia check-shader'.",
                              [](auto& t) {

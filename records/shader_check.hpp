@@ -51,7 +51,6 @@ struct ShaderHalf {
 struct ShaderCost {
   std::string name;
   std::optional<std::size_t> instructions;
-  std::optional<MeasuredRounds> seconds;
 };
 
 struct ShaderCheck {

@@ -44,10 +44,6 @@ void define_stability_tables(Tables& tables) {
     t.key("truth").may_be_nonfinite();
     t.key("outcome", "not compared: no bound below the whole peak is stated").one_of(kOutcomes);
   });
-  tables.define<Nanoseconds>("Time of one value. The spread is between the quartiles.",
-                             [](auto& t) { t.all().unit("ns"); });
-  tables.define<StabilityStall>("What underflow costs.");
-  tables.define<StabilityPrice>("What precision costs.");
   tables.define<StabilityPicture>("Files of a picture, relative to the record.",
                                   [](auto& t) { t.key("largestErrorOfPeak").may_be_nonfinite(); });
   tables.define<StabilityPictures>("A picture by naive formulas and by ours.");
@@ -56,8 +52,6 @@ void define_stability_tables(Tables& tables) {
         t.kind("verify-stability");
         t.keys({"groups", "curves"}).if_any();
         t.key("rows", "what is outside its bound; every case with --all").if_any();
-        t.key("stalls", "missing with --no-timing").if_any();
-        t.key("price", "missing with --no-timing").if_any();
         t.key("pictures", "with --pictures").if_any();
       });
 }

@@ -52,20 +52,6 @@ struct StabilityRow {
   std::string outcome;
 };
 
-struct Nanoseconds {
-  double median = 0, spread = 0;
-};
-
-struct StabilityStall {
-  std::string lobe, precision;
-  Nanoseconds ordinary_nanoseconds, underflow_nanoseconds;
-};
-
-struct StabilityPrice {
-  std::string lobe, model;
-  Nanoseconds float32_nanoseconds, mixed_nanoseconds, float64_nanoseconds;
-};
-
 struct StabilityPicture {
   std::string exr, png, error;
   double largest_error_of_peak = 0;
@@ -86,8 +72,6 @@ struct VerifyStability {
   std::vector<StabilityOfLobe> by_exponent;
   std::vector<StabilityCurve> curves;
   std::vector<StabilityRow> rows;
-  std::vector<StabilityStall> stalls;
-  std::vector<StabilityPrice> price;
   std::vector<StabilityPictures> pictures;
 };
 

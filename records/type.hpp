@@ -1,7 +1,7 @@
 // The types of a record's keys: how a value is written, read again and described.
 //
 // A record is a plain struct. Its table (struct_type.hpp) has each member's key, meaning and bounds. The writer, the strict
-// reader, the JSON Schema, the TypeScript types and the reference pages come from it. docs/decisions/0023 says why.
+// reader, the JSON Schema, the TypeScript types and the reference pages come from it. docs/decisions/0010 says why.
 #pragma once
 
 #include <array>

@@ -124,8 +124,6 @@ struct ReferenceOptions {
   /// Renders the scene's samples, seed, area lights and inter-reflection by the engine's own light transport, on surfaces
   /// without highlights, instead of averaging single rays. To measure the engine, not the picture.
   bool own_transport = false;
-  /// Also record the seconds of `start`, `parse`, `trace` and `write` that the engine reports, summed over processes and passes.
-  bool stages = false;
   std::size_t scenes =
       1;  ///< expected number of scenes; processes and threads are divided among them
 };

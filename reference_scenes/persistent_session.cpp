@@ -73,34 +73,6 @@ class SocketPair {
   int ends_[2];
 };
 
-/// Measures the stages of a scene by the program's output.
-class StageClock {
- public:
-  void end(Stage stage) {
-    switch (stage) {
-      case Stage::kNone:
-        return;
-      case Stage::kStart:
-        return add(seconds.start);
-      case Stage::kParse:
-        return add(seconds.parse);
-      case Stage::kTrace:
-        return add(seconds.trace);
-      case Stage::kWrite:
-        return add(seconds.write);
-    }
-  }
-  records::EngineSeconds seconds{0, 0, 0, 0, 0};
-
- private:
-  void add(std::optional<double>& stage) {
-    const auto now = Clock::now();
-    *stage += std::chrono::duration<double>(now - since_).count();
-    since_ = now;
-  }
-  Clock::time_point since_ = Clock::now();
-};
-
 /// A scene that a caller waits for.
 struct Order {
   Scene scene;
@@ -203,7 +175,6 @@ class Worker {
   struct Done {
     OrderPointer order;
     EngineLog log;
-    records::EngineSeconds stages;
     EngineCost cost;
     bool has_cost = false;  ///< besides cost.seconds
   };
@@ -219,7 +190,6 @@ class Worker {
     // Without the temporary directory, which would make every record differ.
     command_ = shell_join(arguments(""));
     begin_log();
-    clock_ = {};
     begun_ = false;
     started_ = Clock::now();
     cpu_told_ = 0;
@@ -263,7 +233,6 @@ class Worker {
   /// An exception from here (such as a full disk) ends the program and leaves run_process().
   void take_line(std::string_view line) {
     log_.add(line);
-    clock_.end(queue_.program.ended_stage(line));
     if (line.starts_with("lobelia: ")) take_message(split(line, " "));
   }
 
@@ -297,7 +266,6 @@ class Worker {
       }
       done_->order = std::exchange(given_, nullptr);
       done_->log = std::exchange(log_, {});
-      done_->stages = std::exchange(clock_, {}).seconds;
       current_ = false;
       begin_log();
     }
@@ -353,7 +321,6 @@ class Worker {
     record.passes = order.input.passes;
     record.engine_commands = {command_};
     record_limits(record, limits_);
-    if (options_.stages) record.seconds = done.stages;
     record.seconds.total = done.cost.seconds;
     if (done.has_cost) record_cost(record, done.cost, threads_);
     std::exchange(done_, std::nullopt)->order->result.set_value(std::move(result));
@@ -384,7 +351,6 @@ class Worker {
   std::string command_;
   ProcessLimits limits_;
   // Since its last scene:
-  StageClock clock_;
   EngineLog log_;
 };
 

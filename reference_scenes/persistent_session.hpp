@@ -30,8 +30,6 @@ struct SceneInput {
   std::string text;
 };
 
-enum class Stage { kNone, kStart, kParse, kTrace, kWrite };
-
 /// What is different between these programs. Its functions may be called from several threads.
 class PersistentProgram {
  public:
@@ -55,8 +53,6 @@ class PersistentProgram {
   virtual void remove_pictures(const std::filesystem::path&, const SceneInput&) const {}
   /// The ending of its pictures.
   virtual std::string_view picture_format() const { return "exr"; }
-  /// The stage that ends with a line of its output.
-  virtual Stage ended_stage(std::string_view) const { return Stage::kNone; }
   virtual bool is_native() const { return true; }
   virtual std::string method() const = 0;
 };

@@ -29,7 +29,7 @@ std::optional<Filter> find_filter(std::string_view name);
 /// Draws offsets from a pixel's centre with a density proportional to |filter|, separately for the filter's
 /// positive and negative parts (after Ernst, Stamminger, Greiner 2006: filter importance sampling). The part of
 /// sample k is fixed, so that the numbers of samples in the parts are not random
-/// (docs/decisions/0018-filters-have-two-parts.md).
+/// (docs/decisions/0002-rays.md).
 class FilterSampler {
  public:
   explicit FilterSampler(Filter filter);

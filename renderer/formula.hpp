@@ -1,5 +1,5 @@
 // The formula of a lobe that a scene gives: a small tree, which can be evaluated for any type of number and printed in
-// another language (docs/decisions/0032).
+// another language (docs/decisions/0001).
 //
 //   sum     = product { ("+" | "-") product }
 //   product = signed { ("*" | "/") signed }

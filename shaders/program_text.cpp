@@ -297,21 +297,13 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                          t, kRunnerWidth)
                    : fmt::format("        {1} lobelia_p{0} = lobelia_points[t].texels[{0}];\n", t,
                                  is_hlsl ? "float4" : "vec4");
-  // Each round has other arguments, so that no compiler calls once for all rounds.
-  std::string other_arguments;
-  for (std::size_t t = 0; t < texels; ++t)
-    other_arguments += fmt::format("lobelia_p{} *= 1.0000001; ", t);
   for (std::size_t k = 0; k < source.calls.size(); ++k) {
     // WGSL has no overloads, but vec3f() of a number and of a vector.
     const std::string value = is_wgsl ? fmt::format("vec4f(vec3f({}), 1.0)", source.calls[k])
                                       : fmt::format("lobelia_as_four({})", source.calls[k]);
-    calls += fmt::format("    {}{{ result {} {}; }}\n",
-                         source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "",
-                         source.repeats > 1 ? "+=" : "=", value);
+    calls += fmt::format("    {}{{ result = {}; }}\n",
+                         source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "", value);
   }
-  if (source.repeats > 1)
-    calls = fmt::format("    for ({} j = 0; j < {}; j++) {{ {}\n{}    }}\n",
-                        is_wgsl ? "var" : "int", source.repeats, other_arguments, calls);
   std::string begin, text = plain_text(source);
   std::size_t version_line = 0;
   if (is_wgsl) {

@@ -1,4 +1,4 @@
-// Runs shader functions on a real driver, in a process of their own (docs/decisions/0031).
+// Runs shader functions on a real driver, in a process of their own (docs/decisions/0007).
 #pragma once
 
 #include <chrono>
@@ -30,8 +30,6 @@ struct ShaderSource {
   /// Each is an expression of a number or a vector of 3 or 4. It may use the components of a point: component 5 is
   /// shader_component(5).
   std::vector<std::string> calls;
-  /// To measure the time of a call: over 1, the result is a sum of that many calls with slightly other arguments.
-  std::size_t repeats = 1;
 };
 
 /// "lobelia_p1.y" for 5.

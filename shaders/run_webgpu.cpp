@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <optional>
 
@@ -23,27 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string from_base64(std::string_view text) {
-  static const auto kValues = [] {
-    std::array<int, 256> values;
-    values.fill(-1);
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < kDigits.size(); ++i) values[std::uint8_t(kDigits[i])] = int(i);
-    return values;
-  }();
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const int value = kValues[std::uint8_t(c)];
-    if (value < 0) break;
-    bits = bits << 6 | std::uint32_t(value);
-    if ((count += 6) >= 8) bytes += char(bits >> (count -= 8) & 0xff);
-  }
-  return bytes;
-}
-
 /// What the page says on the console, where Chromium adds words around it. Warnings that quote the shader stand there
 /// too, but without the token.
 class Heard {
@@ -61,18 +39,18 @@ class Heard {
       is_none = is_none || words[0] == "none";
       done = true;
     } else if (words[0] == "device" && words.size() == 2) {
-      device = printable(from_base64(words[1]));
+      device = printable(base64_decoded(words[1]));
     } else if (words[0] == "broken" && words.size() == 2) {
-      broken = printable(from_base64(words[1]), 200);
+      broken = printable(base64_decoded(words[1]), 200);
     } else if (words.size() == 3 && parse_integer(words[1], k) && k >= 0 &&
                std::size_t(k) < values.size()) {
       double number = 0;
       std::string& bytes = values[std::size_t(k)];
       if (words[0] == "refused") {
         refused = std::size_t(k);
-        log = from_base64(words[2]);
+        log = base64_decoded(words[2]);
       } else if (words[0] == "values" && bytes.size() < bytes_) {
-        bytes += from_base64(words[2]);
+        bytes += base64_decoded(words[2]);
       } else if (words[0] == "seconds" && parse_number(words[2], number)) {
         seconds[std::size_t(k)].push_back(number);
       }

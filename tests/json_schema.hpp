@@ -29,7 +29,7 @@ class JsonSchema {
                                             parsed_);
   }
 
-  /// What is wrong with a record; empty if nothing.
+  /// The mistakes of a record; empty if there are none.
   std::string problems(const Plain& record) const {
     valijson::ValidationResults results;
     if (valijson::Validator().validate(parsed_, valijson::adapters::NlohmannJsonAdapter(record),
@@ -51,7 +51,7 @@ JsonSchema schema_of() {
   return JsonSchema(records::schema_text({records::struct_type<T>, nullptr}));
 }
 
-/// What is wrong with a record by the schema of its kind.
+/// The mistakes of a record by the schema of its kind.
 template <class T>
 std::string schema_problems(const T& record) {
   return schema_of<T>().problems(as_written(record));

@@ -1,16 +1,14 @@
 #include "compare/metrics/flip_error.hpp"
 
+#include <oneapi/tbb/cache_aligned_allocator.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <new>
 
 #include "compare/metrics/flip_kernels.hpp"
-#include "core/aligned.hpp"
 #include "core/scratch_memory.hpp"
 
 namespace lobelia {
@@ -37,6 +35,10 @@ struct FlipArea {
   }
 };
 
+/// From the beginning of a line of the cache on.
+template <class T>
+using Aligned = std::vector<T, oneapi::tbb::cache_aligned_allocator<T>>;
+
 /// One picture's rows of a tile that have been filtered along. Pixels of the picture's border repeat beyond it. Holds no more
 /// rows than a band and the filters around it are high, so that they stay in the cache.
 class FlipTileRows {
@@ -57,8 +59,8 @@ class FlipTileRows {
   std::size_t beside_;  ///< pixels of input before the tile, and after it
   int first_;           ///< column of the picture at which a row of input begins
   std::size_t extended_;
-  AlignedFloats rgb_memory_;
-  std::unique_ptr<double[], AlignedFree> memory_;
+  Aligned<float> rgb_memory_;
+  Aligned<double> memory_;
   float* rgb_;
   FlipColours in_;
   FlipRows rows_;
@@ -74,15 +76,12 @@ FlipTileRows::FlipTileRows(const DisplayLight& shown, const FlipFilters& filters
   extended_ = padded + 2 * beside_;
   rows_.kept = 2 * std::size_t(filters.radius()) + kFlipBand;
   rows_.blocks = padded / kFlipBlock;
-  rgb_memory_ = aligned_floats(3 * extended_);
-  rgb_ = rgb_memory_.get();
+  rgb_memory_.resize(3 * extended_);
+  rgb_ = rgb_memory_.data();
   const std::size_t filtered = FlipRows::size(rows_.kept, rows_.blocks);
-  // kFlipBlock doubles are two lines of the cache.
-  const std::size_t bytes = (filtered + 3 * extended_) * sizeof(double);
-  memory_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
-  if (!memory_) throw std::bad_alloc();
-  rows_.values = memory_.get();
-  double* const in = memory_.get() + filtered;
+  memory_.resize(filtered + 3 * extended_);
+  rows_.values = memory_.data();
+  double* const in = memory_.data() + filtered;  // kFlipBlock doubles are two lines of the cache
   in_ = {in, in + extended_, in + 2 * extended_};
 }
 

@@ -1,31 +1,13 @@
-// The filters and the error map of FLIP, shared by LDR-FLIP and HDR-FLIP. Source, agreement and the reason for float:
+// The error map of FLIP, shared by LDR-FLIP and HDR-FLIP. Source, agreement and the reason for float:
 // see flip_ldr.cpp.
 #pragma once
 
-#include <algorithm>
 #include <functional>
-#include <vector>
 
+#include "compare/metrics/flip_filters.hpp"
 #include "compare/metrics/metric.hpp"
 
 namespace lobelia {
-
-/// The middle tap of a filter, then those on one side of it. The other side mirrors them; of `edge` it has the other sign.
-using FlipTaps = std::vector<double>;
-
-/// Separable filters for one viewing distance.
-struct FlipFilters {
-  explicit FlipFilters(double pixels_per_degree);
-
-  int contrast_radius, feature_radius;  ///< as defined; taps that are almost 0 are left out, or 0
-  /// Contrast sensitivity: achromatic, red-green, and blue-yellow as a sum of two Gaussians, each applied in both
-  /// directions.
-  FlipTaps luminance, red_green, blue_yellow_1, blue_yellow_2;
-  /// Feature detection: a Gaussian across and its first (edge) or second (point) derivative along.
-  FlipTaps gaussian, edge, point;
-
-  int radius() const { return std::max(contrast_radius, feature_radius); }
-};
 
 /// Columns [left, left + width), rows [top, top + height).
 struct FlipTile {

@@ -3,8 +3,7 @@
 #include <hwy/highway.h>
 #include <utility>
 
-#include "compare/metrics/flip_error.hpp"
-#include "compare/metrics/flip_kernels.hpp"
+#include "compare/metrics/flip_filters.hpp"
 
 #if defined(LOBELIA_COMPARE_METRICS_FLIP_FILTERS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_COMPARE_METRICS_FLIP_FILTERS_INL_HPP
@@ -13,64 +12,12 @@
 #define LOBELIA_COMPARE_METRICS_FLIP_FILTERS_INL_HPP
 #endif
 
-#include "compare/metrics/flip_error-inl.hpp"
-
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
 using Samples = hn::CappedTag<double, 8>;
 using SampleLanes = hn::Vec<Samples>;
-
-/// GCC loads what it uses twice twice, and loads are what filtering along waits for.
-HWY_INLINE void keep_in_registers([[maybe_unused]] SampleLanes& a,
-                                  [[maybe_unused]] SampleLanes& b) {
-#if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL
-  asm("" : "+v"(a.raw), "+v"(b.raw));
-#endif
-}
-
-/// The neighbours of a register of pixels of a row that a round of taps needs.
-class AlongSamples {
- public:
-  static constexpr std::size_t kRound = 8;
-
-  /// `at` is the register's first pixel, k the first tap of the round: a multiple of kRound.
-  HWY_INLINE AlongSamples(const double* at, std::size_t k) : before_(at - k), after_(at + k) {
-#if HWY_TARGET <= HWY_AVX3
-    const Samples d;
-    near_before_ = hn::Load(d, before_), far_before_ = hn::Load(d, before_ - kRound);
-    near_after_ = hn::Load(d, after_), far_after_ = hn::Load(d, after_ + kRound);
-#endif
-  }
-  /// The samples at the tap k + kTap.
-  template <std::size_t kTap>
-  HWY_INLINE void get(SampleLanes& before, SampleLanes& after) const {
-#if HWY_TARGET <= HWY_AVX3
-    if constexpr (kTap == 0)
-      before = near_before_, after = near_after_;
-    else
-      before = shifted<kRound - kTap>(far_before_, near_before_),
-      after = shifted<kTap>(near_after_, far_after_);
-#else
-    const Samples d;
-    before = hn::LoadU(d, before_ - kTap), after = hn::LoadU(d, after_ + kTap);
-#endif
-  }
-
- private:
-  const double *before_, *after_;
-#if HWY_TARGET <= HWY_AVX3
-  // A register is as long as a line of the cache, so almost every load would read two lines. Shifting two registers is
-  // faster.
-  SampleLanes near_before_, far_before_, near_after_, far_after_;
-
-  template <std::size_t kShift>
-  static HWY_INLINE SampleLanes shifted(SampleLanes low, SampleLanes high) {
-    return SampleLanes{_mm512_castsi512_pd(_mm512_alignr_epi64(
-        _mm512_castpd_si512(high.raw), _mm512_castpd_si512(low.raw), int(kShift)))};
-  }
-#endif
-};
 
 /// Filters a register of pixels of a row of both pictures along, by kEven even filters and kOdd odd ones. Pairs of samples
 /// with the same tap are added first, which halves the products.
@@ -82,30 +29,21 @@ struct AlongSums {
   HWY_INLINE void filter(const double* a, const double* b, const double* const* taps,
                          std::size_t count) {
     const Samples d;
-    const SampleLanes middle[] = {hn::Load(d, a), hn::Load(d, b)};
-    for (std::size_t v = 0; v < 2; ++v)
-      for (std::size_t i = 0; i < kEven + kOdd; ++i)
-        sums[i][v] = i < kEven ? hn::Mul(hn::Set(d, taps[i][0]), middle[v]) : hn::Zero(d);
-    add<1>({{a, 0}, {b, 0}}, 0, taps, count);
-    for (std::size_t k = AlongSamples::kRound; k < count; k += AlongSamples::kRound)
-      add<0>({{a, k}, {b, k}}, k, taps, count);
-  }
-  /// Adds the taps from k + kTap to the end of the round, on both sides, as far as there are any.
-  template <std::size_t kTap>
-  HWY_INLINE void add(const AlongSamples (&in)[2], std::size_t k, const double* const* taps,
-                      std::size_t count) {
-    if (k + kTap >= count) return;
-    const Samples d;
+    const double* const pictures[] = {a, b};
     for (std::size_t v = 0; v < 2; ++v) {
-      SampleLanes before, after;
-      in[v].template get<kTap>(before, after);
-      if constexpr (kOdd > 0) keep_in_registers(before, after);
-      for (std::size_t i = 0; i < kEven + kOdd; ++i) {
-        const SampleLanes pair = i < kEven ? hn::Add(after, before) : hn::Sub(after, before);
-        sums[i][v] = hn::MulAdd(hn::Set(d, taps[i][k + kTap]), pair, sums[i][v]);
-      }
+      const SampleLanes middle = hn::Load(d, pictures[v]);
+      for (std::size_t i = 0; i < kEven + kOdd; ++i)
+        sums[i][v] = i < kEven ? hn::Mul(hn::Set(d, taps[i][0]), middle) : hn::Zero(d);
     }
-    if constexpr (kTap + 1 < AlongSamples::kRound) add<kTap + 1>(in, k, taps, count);
+    for (std::size_t k = 1; k < count; ++k)
+      for (std::size_t v = 0; v < 2; ++v) {
+        const SampleLanes before = hn::LoadU(d, pictures[v] - k),
+                          after = hn::LoadU(d, pictures[v] + k);
+        for (std::size_t i = 0; i < kEven + kOdd; ++i) {
+          const SampleLanes pair = i < kEven ? hn::Add(after, before) : hn::Sub(after, before);
+          sums[i][v] = hn::MulAdd(hn::Set(d, taps[i][k]), pair, sums[i][v]);
+        }
+      }
   }
   HWY_INLINE void store(std::size_t i, double* a, double* b) const {
     hn::Store(sums[i][0], Samples(), a);
@@ -243,17 +181,6 @@ HWY_INLINE void filter_down(const FlipFilters& filters, const FlipRows& in, std:
                       },
                       std::make_index_sequence<kRowsOfTwo>());
                 });
-}
-
-void block_logs_lanes(const FlipFilters& filters, const FlipRows& a, const FlipRows& b,
-                      std::size_t block, const FlipTapsDown& taps, float* logs,
-                      std::size_t stride) {
-  alignas(64) FlipFiltered of_a, of_b;
-  filter_down(filters, a, block, taps, of_a);
-  filter_down(filters, b, block, taps, of_b);
-  for (std::size_t row = 0; row < taps.rows; ++row)
-    for (std::size_t column = 0; column < kFlipBlock; column += hn::Lanes(Floats()))
-      hn::StoreU(log_of_error(of_a, of_b, row, column), Floats(), logs + row * stride + column);
 }
 
 }  // namespace lobelia::HWY_NAMESPACE

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compare/metrics/flip_error.hpp"
+#include "compare/metrics/flip_filters.hpp"
 
 namespace lobelia {
 namespace {

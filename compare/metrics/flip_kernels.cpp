@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/metrics/flip_error.hpp"
-
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__
 #define HWY_COMPILE_ONLY_STATIC
@@ -15,8 +13,7 @@
 #include <hwy/foreach_target.h>  // includes this file again for each instruction set
 #include <hwy/highway.h>
 
-#include "compare/metrics/flip_error-inl.hpp"
-#include "compare/metrics/flip_filters-inl.hpp"
+#include "compare/metrics/flip_pixels-inl.hpp"
 
 #if HWY_ONCE
 namespace lobelia {

@@ -303,8 +303,7 @@ def cost(
 ) -> Record:
     """Measures what accuracy costs: error and time of every variant (docs/cost.md). It takes minutes.
 
-    `level` chooses benchmarks; `effort` is "quick", "usual" or "thorough". The level "engine" measures whole programs,
-    so it starts the program `lobelia`, if that is installed with the package.
+    `level` chooses benchmarks; `effort` is "quick", "usual" or "thorough".
     """
     given = {**options, "level": level, "effort": effort}
     return Record.parse(_lobelia.cost(list(scenes), given, progress))

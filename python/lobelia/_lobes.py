@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Union, overload
+from typing import Any, Callable, List, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -88,8 +88,8 @@ class Lobe:
         if dtype.kind not in "fiub":
             raise UsageError(f"s and n are numbers, not {dtype}")
         if dtype in (np.float32, np.float16):
-            return _scalar(self._lobe.value32(s, n))
-        return _scalar(self._lobe.value64(s, n))
+            return _evaluate(self._lobe.value32, s, n=n)
+        return _evaluate(self._lobe.value64, s, n=n)
 
     def sample(self, u: ArrayLike, n: ArrayLike) -> Any:
         """s (0 to 1) with a density like the lobe's, from uniform numbers u in [0, 1), for exponents n. float64.
@@ -98,12 +98,12 @@ class Lobe:
         `density`.
         """
         _refuse_masked(u=u, n=n)
-        return _scalar(self._lobe.sample(u, n))
+        return _evaluate(self._lobe.sample, u, n=n)
 
     def density(self, s: ArrayLike, n: ArrayLike) -> Any:
         """The density of `sample` over s. Its integral from 0 to 1 is 1. float64."""
         _refuse_masked(s=s, n=n)
-        return _scalar(self._lobe.density(s, n))
+        return _evaluate(self._lobe.density, s, n=n)
 
     def __repr__(self) -> str:
         return f"<lobelia lobe {self.name}>"
@@ -127,8 +127,22 @@ def _refuse_masked(**arrays: ArrayLike) -> None:
         _lobelia.refuse_masked(array, name)
 
 
-def _scalar(array: Any) -> Any:
-    return array[()]
+def _evaluate(function: Callable[..., Any], *others: ArrayLike, n: ArrayLike) -> Any:
+    """function(n, *others) on arrays broadcast together: flat, and sorted by n, so that what depends on n alone is made
+    once for each of its values."""
+    try:
+        *rest, exponents = np.broadcast_arrays(*others, n)
+    except ValueError:
+        shapes = ["(" + ", ".join(map(str, np.shape(one))) + ")" for one in (*others, n)]
+        raise UsageError(f"shapes {', '.join(shapes)} cannot be broadcast together") from None
+    if np.size(n) == 1 and others:
+        values = function(np.ravel(n), *map(np.ravel, rest))
+        return values.reshape(exponents.shape)[()]
+    order = np.argsort(exponents, axis=None, kind="stable")
+    in_order = function(exponents.ravel()[order], *(one.ravel()[order] for one in rest))
+    values = np.empty_like(in_order)
+    values[order] = in_order
+    return values.reshape(exponents.shape)[()]
 
 
 def _highlight(model: str, lobe_: Union[str, Lobe], normalisation: str) -> _lobelia.Highlight:
@@ -148,7 +162,7 @@ def coefficient(
     True
     """
     _refuse_masked(exponent=exponent)
-    return _scalar(_highlight(model, lobe, normalisation).coefficient(exponent))
+    return _evaluate(_highlight(model, lobe, normalisation).coefficient, n=exponent)
 
 
 def albedo(
@@ -168,7 +182,8 @@ def albedo(
     1.0
     """
     _refuse_masked(exponent=exponent, incidence=incidence)
-    return _scalar(_highlight(model, lobe, normalisation).albedo(exponent, incidence, of_light))
+    albedo_of = _highlight(model, lobe, normalisation).albedo
+    return _evaluate(lambda n, angle: albedo_of(n, angle, of_light), incidence, n=exponent)
 
 
 def radiance(
@@ -187,4 +202,4 @@ def radiance(
     the cosine of the eye, which matters to a model with shadowing alone; the result is 0 unless it is above 0.
     """
     _refuse_masked(exponent=exponent, n_dot_l=n_dot_l, n_dot_v=n_dot_v, s=s)
-    return _scalar(_highlight(model, lobe, normalisation).radiance(exponent, n_dot_l, n_dot_v, s))
+    return _evaluate(_highlight(model, lobe, normalisation).radiance, n_dot_l, n_dot_v, s, n=exponent)

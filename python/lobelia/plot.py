@@ -1,4 +1,4 @@
-"""Plots by matplotlib: a highlight's curves, a cost table's front, a map of differences."""
+"""Plots by matplotlib: a highlight's curves, a map of differences."""
 
 from __future__ import annotations
 
@@ -45,38 +45,6 @@ def profile(record: Record, ax: Optional[Any] = None) -> Any:
     else:
         raise UsageError(f"a record of kind '{values.get('kind')}' has no curves")
     ax.set_ylabel("radiance")
-    ax.legend()
-    return ax
-
-
-def front(record: Record, table: str = "", error: str = "", ax: Optional[Any] = None) -> Any:
-    """Error over time of a table of `lobelia.cost`, both logarithmic, with the Pareto front. Returns the axes.
-
-    `table` is the table's id and `error` the error's; the first if not given.
-    """
-    tables = {one["id"]: one for one in record.to_dict().get("tables", [])}
-    if not tables:
-        raise UsageError("the record has no tables; it is to be one of lobelia.cost")
-    if table and table not in tables:
-        raise UsageError(f"table '{table}' is unknown; allowed: {', '.join(tables)}")
-    chosen = tables[table or next(iter(tables))]
-    errors = [one["id"] for one in chosen["errors"]]
-    if error and error not in errors:
-        raise UsageError(f"error '{error}' is unknown; allowed: {', '.join(errors)}")
-    name = error or errors[0]
-    places = {}
-    for variant in chosen["ways"]:
-        price = variant.get("count", variant.get("seconds", {}).get("median"))
-        value = float(variant["errors"].get(name, "nan"))
-        if price and value > 0:
-            places[variant["name"]] = (price, value)
-    ax = _axes(ax)
-    ax.loglog(*zip(*places.values()), "o", color="0.6", label="variants")
-    best = [places[one] for one in chosen["fronts"][name]["ways"] if one in places]
-    ax.loglog(*zip(*sorted(best)), "o-", label="front")
-    ax.set_xlabel(f"{chosen['unit']} for {chosen['per']}" if chosen.get("per") else chosen["unit"])
-    ax.set_ylabel(name)
-    ax.set_title(chosen["title"])
     ax.legend()
     return ax
 

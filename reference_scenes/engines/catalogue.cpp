@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engines/analytic/analytic.hpp"
-#include "reference_scenes/engines/babylon/babylon.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"
-#include "reference_scenes/engines/opengl/opengl.hpp"
 #include "reference_scenes/engines/povray/povray.hpp"
-#include "reference_scenes/engines/sunflow/sunflow.hpp"
-#include "reference_scenes/engines/tachyon/tachyon.hpp"
-#include "reference_scenes/engines/three/three.hpp"
+#include "reference_scenes/engines/programs/native_engine.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {
@@ -27,27 +24,34 @@ struct CatalogueEntry {
                      const std::filesystem::path& directory);
 };
 
-/// An engine is one line here.
-constexpr CatalogueEntry kCatalogue[] = {
-    {kPovrayInfo, make_povray, keep_povray_input},
-    {kBlenderInfo, make_blender, keep_blender_input},
-    {kTachyonInfo, make_tachyon, keep_tachyon_input},
-    {kSunflowInfo, make_sunflow, keep_sunflow_input},
-    {kThreeInfo, make_three, keep_three_input},
-    {kBabylonInfo, make_babylon, keep_babylon_input},
-    {kOpenglInfo, make_opengl, keep_opengl_input},
-    {kAnalyticInfo, make_analytic, keep_analytic_input},
-};
+template <const NativeEngine& kEngine>
+CatalogueEntry native() {
+  return {kEngine.info,
+          [](const std::filesystem::path& program) { return make_native_engine(kEngine, program); },
+          [](const Scene& scene, const ReferenceOptions& options,
+             const std::filesystem::path& directory) {
+            keep_native_input(kEngine, scene, options, directory);
+          }};
+}
 
-constexpr auto kInfos = [] {
-  std::array<EngineInfo, std::size(kCatalogue)> infos;
-  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = kCatalogue[i].info;
-  return infos;
-}();
+/// An engine is one line here.
+const std::vector<CatalogueEntry>& catalogue() {
+  static const std::vector<CatalogueEntry> all{
+      {kPovrayInfo, make_povray, keep_povray_input},
+      {kBlenderInfo, make_blender, keep_blender_input},
+      native<kTachyon>(),
+      native<kSunflow>(),
+      native<kThree>(),
+      native<kBabylon>(),
+      native<kOpengl>(),
+      {kAnalyticInfo, make_analytic, keep_analytic_input},
+  };
+  return all;
+}
 
 const CatalogueEntry& entry(std::string_view name) {
   std::vector<std::string_view> names;
-  for (const CatalogueEntry& candidate : kCatalogue) {
+  for (const CatalogueEntry& candidate : catalogue()) {
     if (candidate.info.name == name) return candidate;
     names.push_back(candidate.info.name);
   }
@@ -58,12 +62,20 @@ const CatalogueEntry& entry(std::string_view name) {
 
 }  // namespace
 
-std::span<const EngineInfo> engine_infos() { return kInfos; }
+std::span<const EngineInfo> engine_infos() {
+  static const std::vector<EngineInfo> infos = [] {
+    std::vector<EngineInfo> all;
+    for (const CatalogueEntry& one : catalogue()) all.push_back(one.info);
+    return all;
+  }();
+  return infos;
+}
 
 const EngineInfo* transport_engine() {
+  const auto infos = engine_infos();
   const auto found =
-      std::ranges::find_if(kInfos, [](const EngineInfo& info) { return !info.transport.empty(); });
-  return found == kInfos.end() ? nullptr : &*found;
+      std::ranges::find_if(infos, [](const EngineInfo& info) { return !info.transport.empty(); });
+  return found == infos.end() ? nullptr : &*found;
 }
 
 const EngineInfo& engine_info(std::string_view name) { return entry(name).info; }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "core/error.hpp"
@@ -26,9 +25,8 @@ constexpr SceneFormat kLobeliaFormat{
 };
 
 const std::vector<SceneFormat>& all_scene_formats() {
-  static const std::vector<SceneFormat> formats{kLobeliaFormat,       kJsonFormat,
-                                                kMitsubaFormat,       kPovrayFormat,
-                                                kBlenderPythonFormat, kGltfFormat};
+  static const std::vector<SceneFormat> formats{kLobeliaFormat, kJsonFormat, kMitsubaFormat,
+                                                kPovrayFormat, kBlenderPythonFormat};
   return formats;
 }
 
@@ -50,21 +48,15 @@ std::string why_not_spelled_out(const Scene& scene) {
   return why_not_so_many_spheres(scene);
 }
 
-double half_vector_exponent(const Highlight& highlight) {
-  return info(highlight.model).angle == LobeAngle::kHalfVector ? highlight.exponent
-                                                               : 4 * highlight.exponent;
-}
-
-double roughness_of(const Highlight& highlight) {
-  return std::pow(2 / (half_vector_exponent(highlight) + 2), 0.25);
-}
-
 std::span<const SceneFormat> scene_formats() { return all_scene_formats(); }
 
 const SceneFormat& scene_format(std::string_view name) {
   const auto formats = scene_formats();
   const auto found = std::ranges::find(formats, name, &SceneFormat::name);
   if (found != formats.end()) return *found;
+  if (name == "gltf-lights")
+    throw Error(ExitCode::kUsage,
+                "format 'gltf-lights' is gone; use blender-python, and export glTF from Blender");
   std::vector<std::string_view> names;
   for (const SceneFormat& format : formats) names.push_back(format.name);
   throw Error(ExitCode::kUsage,

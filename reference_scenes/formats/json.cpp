@@ -5,6 +5,9 @@
 namespace lobelia {
 namespace {
 
+records::Triple triple(Vec3 v) { return {v.x, v.y, v.z}; }
+records::Triple triple(Rgb c) { return {c.r, c.g, c.b}; }
+
 records::SceneCamera camera_record(const Scene& scene) {
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   return {triple(frame.origin),
@@ -56,11 +59,6 @@ records::ScenePlane plane_record(const Plane& plane) {
   return record;
 }
 
-}  // namespace
-
-records::Triple triple(Vec3 v) { return {v.x, v.y, v.z}; }
-records::Triple triple(Rgb c) { return {c.r, c.g, c.b}; }
-
 records::SceneMaterial material_record(const Material& material) {
   const Highlight& highlight = material.highlight;
   const ModelInfo& model = info(highlight.model);
@@ -82,6 +80,8 @@ records::SceneMaterial material_record(const Material& material) {
   record.mirror_at_grazing = mirror_at_grazing(material.mirror_reflectance);
   return record;
 }
+
+}  // namespace
 
 records::Scene scene_record(const Scene& scene) {
   records::Scene record;
@@ -106,7 +106,7 @@ constinit const SceneFormat kJsonFormat{
     "json",
     "JSON",
     "scene.json",
-    "a flat record of numbers (docs/reference/scene.md): axes of the camera, coefficients, lights with their units",
+    "a flat record of numbers (lobelia records scene): axes of the camera, coefficients, lights with their units",
     why_not_spelled_out,
     [](const Scene& scene) {
       return std::map<std::string, std::string>{{"scene.json", record_text(scene_record(scene))}};

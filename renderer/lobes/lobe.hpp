@@ -3,7 +3,7 @@
 // s = 1 - cos(angle), which the caller computes without cancellation as |a - b|^2 / 2 for unit a, b. Subnormal
 // values are 0, because processors stall on them.
 //
-// Lobes are compiled once for each instruction set (Highway's idiom, docs/decisions/0002), so their namespace is
+// Lobes are compiled once for each instruction set (Highway's idiom, docs/decisions/0001), so their namespace is
 // HWY_NAMESPACE. Only catalogue.hpp includes their files, and its guard, which compares with HWY_TARGET_TOGGLE,
 // serves all.
 #pragma once

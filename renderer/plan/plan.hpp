@@ -46,7 +46,6 @@ struct Experiment {
     kEven,     ///< all: evenly over the hemisphere, without importance sampling
   };
   Directions directions = Directions::kPlanned;
-  bool shadows = true;          ///< false: nothing stands between a surface and a light
   bool sum_all_lights = false;  ///< true: no light stands for others, however many there are
 };
 
@@ -105,8 +104,7 @@ struct Plan {
 
 /// The interface of an effect: one file in renderer/plan/effects/ and one line in catalogue.hpp there.
 template <class E>
-concept EffectOfLight = requires(const Scene& scene, EffectPolicy policy, Plan& plan,
-                                 Scene& changed, Experiment& experiment) {
+concept EffectOfLight = requires(const Scene& scene, EffectPolicy policy, Plan& plan) {
   { E::kName } -> std::convertible_to<std::string_view>;
   { E::kWork } -> std::convertible_to<std::string_view>;
   /// Why a few samples of a pixel do not tell whether it needs more; empty if they do.
@@ -114,10 +112,6 @@ concept EffectOfLight = requires(const Scene& scene, EffectPolicy policy, Plan& 
   /// Decides whether the scene calls for the effect, and why, and writes into the plan what to do for it. With
   /// EffectPolicy::kAll every scene calls for it.
   { E::decide(scene, policy, plan) } -> std::same_as<EffectDecision>;
-  /// What a picture without it has instead: "a pinhole".
-  { E::kWithout } -> std::convertible_to<std::string_view>;
-  /// Changes the scene so that nothing calls for it; or the experiment, if no scene can say that.
-  E::leave_out(changed, experiment);
 };
 
 /// Every highlight gets `precision` or, without one, the narrowest precision that its error bound allows. The policy

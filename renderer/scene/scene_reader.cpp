@@ -1,7 +1,8 @@
+#include <cctype>
+
 #include "core/files.hpp"
 #include "core/shipped_files.hpp"
 #include "renderer/formula.hpp"
-#include "renderer/scene/foreign_format.hpp"
 #include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -320,8 +321,15 @@ class SceneReader {
 
 Scene parse_scene(std::string text, const std::string& file_name,
                   const std::filesystem::path& directory) {
-  if (const std::string what = foreign_format(text); !what.empty())
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", file_name, what));
+  // Many take the file of another program for a scene.
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && std::isgraph(static_cast<unsigned char>(text[first])) &&
+      text[first] != '<')
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: is no XML; Lobelia reads scenes in its own XML (lobelia scene-format) "
+                    "and, with lobelia scene --from mitsuba, those of Mitsuba",
+                    file_name));
   XmlSource source(std::move(text), file_name, kMaxSceneBytes);
   return SceneReader(source, directory).read();
 }

@@ -164,7 +164,7 @@ struct MetLight {
       if (prepared.plan.lies_on(index, int(wave.leaves[i]))) return;
       hidden &= !prepared.plan.lies_on(index, int(wave.surface[i]));
     }
-    if (hidden && (prepared.plan.experiment.shadows || !scattered)) return;
+    if (hidden) return;
     const LightStrategy strategy =
         scattered ? prepared.plan.strategy[index][std::size_t(wave.material[i])]
                   : LightStrategy::kSurface;
@@ -179,14 +179,13 @@ struct MetLight {
 void add_met_environment(const PreparedScene& prepared, const Wave& wave, std::size_t l,
                          Workspace& work) {
   const bool scattered = wave.kind == Wave::Kind::kScattered;
-  const bool through = scattered && !prepared.plan.experiment.shadows;
   const auto strategy = [&](std::size_t i) {
     return scattered ? prepared.plan.strategy[l][std::size_t(wave.material[i])]
                      : LightStrategy::kSurface;
   };
   work.looking.clear();
   for (std::size_t i = 0; i < wave.count; ++i)
-    if ((wave.surface[i] < 0 || through) && strategy(i) != LightStrategy::kLight) {
+    if (wave.surface[i] < 0 && strategy(i) != LightStrategy::kLight) {
       copy(wave.to_eye, i, work.part_to_eye, work.looking.size());
       work.looking.push_back(int(i));
     }
@@ -211,10 +210,8 @@ void add_met_lights_of_tree(const PreparedScene& prepared, const Wave& wave, Wor
   for (std::size_t i = 0; i < wave.count; ++i)
     if (!scattered || prepared.area_strategy(wave.material[i]) != LightStrategy::kLight)
       work.looking.push_back(int(i));
-  std::fill_n(work.visible, wave.count, std::numeric_limits<double>::infinity());
-  const bool through = scattered && !prepared.plan.experiment.shadows;
   const LightTree& tree = *prepared.area_tree;
-  tree.find_met({wave.origin, wave.to_eye, through ? work.visible : wave.distance}, work.looking,
+  tree.find_met({wave.origin, wave.to_eye, wave.distance}, work.looking,
                 [&](int index, std::span<const int> rays) {
                   for (std::size_t k = 0; k < rays.size(); ++k) {
                     copy(wave.origin, std::size_t(rays[k]), work.part_point, k);

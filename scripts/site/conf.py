@@ -51,6 +51,8 @@ def add_toctrees(app, name, source):
         for part in index.split("\n## ")[1:]:
             title = part.split("\n")[0].split(":")[0]
             pages = ["docs/" + page for page in links(part)]
+            if title == "Reference":
+                pages.append("docs/reference/README")  # of the program, by scripts/docs
             source[0] += toctree(pages, f":hidden:\n:caption: {title}\n")
     if name == "docs/README":
         source[0] += toctree(links(source[0].split("\n### ")[1]), ":hidden:\n")

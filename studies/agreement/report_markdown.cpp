@@ -13,7 +13,7 @@ constexpr char kHead[] = R"(# The references, compared
 
 How far each reference is from the analytic picture. The analytic picture is the formulas of
 [conventions](conventions.md), evaluated pixel by pixel in double, in 50 digits from n = 1e5 on, with geometry of
-their own ([decision 9](decisions/0009-the-formulas-are-an-engine.md)).
+their own ([decision 3](decisions/0003-references.md)).
 
 - *Lobelia* is `lobelia render`.
 - *Native*: the engine shades the model itself.

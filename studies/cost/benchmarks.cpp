@@ -1,31 +1,54 @@
 #include "studies/cost/benchmarks.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
 #include "core/host.hpp"
+#include "renderer/kernels/kernels.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 constexpr Benchmark kBenchmarks[] = {
     {"lobe", "every lobe, computed in every variant", false, &measure_lobes},
-    {"fixed-point", "lobes as circuits, by their number of bits", false, &measure_fixed_point},
     {"picture", "milliseconds a megapixel over the errors of the picture", true, &measure_pictures},
     {"transport",
      "light transport: error over samples and time, with and without importance sampling", false,
      &measure_transport},
-    {"engine", "whole programs on the same picture: ours, POV-Ray, Cycles", true, &measure_engines},
-    {"effects", "each effect of light: what it costs, and what the picture loses without it", false,
-     &measure_effects},
 };
 
 }  // namespace
 
 std::span<const Benchmark> benchmarks() { return kBenchmarks; }
 
-std::filesystem::path Options::program(std::string_view engine) const {
-  for (const auto& [name, path] : programs)
-    if (name == engine) return path;
-  // Resolved here: in the keeper process that starts it, the link would lead to the keeper.
-  return engine == "lobelia" ? program_file() : std::filesystem::path();
+std::vector<const Benchmark*> chosen_benchmarks(const std::vector<std::string>& names,
+                                                bool has_scenes) {
+  std::vector<const Benchmark*> chosen;
+  for (const Benchmark& one : kBenchmarks) {
+    const bool named = std::ranges::count(names, one.name) > 0;
+    const bool lacks_scene = one.needs_scenes && !has_scenes;
+    if (named && lacks_scene)
+      throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", one.name));
+    if (named || (names.empty() && !lacks_scene)) chosen.push_back(&one);
+  }
+  return chosen;
+}
+
+records::Cost measure(const std::vector<const Benchmark*>& chosen, Options options,
+                      std::vector<std::string> command) {
+  records::Cost report{std::move(command), records::this_host(), kernels().instruction_set, {}};
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    options.done = double(i) / double(chosen.size());
+    options.level = chosen[i]->name;
+    options.progress("begins");
+    for (Table& table : chosen[i]->measure(options)) {
+      add_fronts(table);
+      report.tables.push_back(std::move(table));
+    }
+  }
+  return report;
 }
 
 }  // namespace lobelia::cost

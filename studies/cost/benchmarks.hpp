@@ -1,12 +1,12 @@
-// The benchmarks of `lobelia cost`: from one evaluation of a lobe to a whole program.
+// The benchmarks of `lobelia cost`: from one evaluation of a lobe to light transport.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "renderer/scene/scene.hpp"
@@ -26,17 +26,18 @@ struct Options {
   std::vector<NamedScene> scenes;
   Effort effort = Effort::kUsual;
   /// Programs of engines by the engine's name; engines without one are found in $PATH.
-  std::vector<std::pair<std::string, std::string>> programs;
-  std::function<void(const std::string& what)> on_progress;
+  std::map<std::string, std::filesystem::path> programs;
+  /// Gets the share of all that is done.
+  std::function<void(double done, const std::string& what)> on_progress;
+  double done = 0;
+  std::string_view level;
 
   void progress(const std::string& what) const {
-    if (on_progress) on_progress(what);
+    if (on_progress) on_progress(done, std::string(level) + ": " + what);
   }
   int rounds(int quick, int usual, int thorough) const {
     return effort == Effort::kQuick ? quick : effort == Effort::kUsual ? usual : thorough;
   }
-  /// Empty if none was named for that engine. "lobelia" is the running program.
-  std::filesystem::path program(std::string_view engine) const;
 };
 
 /// Each is in NAME_benchmark.cpp and has a line in benchmarks.cpp.
@@ -48,6 +49,12 @@ struct Benchmark {
 };
 
 std::span<const Benchmark> benchmarks();
+/// Those of these names, or without names all that have something to measure. Throws Error(kUsage) for one that needs scenes.
+std::vector<const Benchmark*> chosen_benchmarks(const std::vector<std::string>& names,
+                                                bool has_scenes);
+/// The tables of each, with their fronts.
+records::Cost measure(const std::vector<const Benchmark*>& chosen, Options options,
+                      std::vector<std::string> command);
 
 /// One table per exponent, "lobe-n64", and those of half floats (half_floats.hpp).
 std::vector<Table> measure_lobes(const Options& options);
@@ -55,21 +62,10 @@ std::vector<Table> measure_lobes(const Options& options);
 /// largest error of a variant, and may then give only a bracket of it.
 Table lobe_table(double exponent, int rounds, bool quick);
 
-/// One table per exponent, "fixed-point-n64". Nothing is timed.
-std::vector<Table> measure_fixed_point(const Options& options);
-
 /// One table per scene, by lobe and precision, rendered by one thread.
 std::vector<Table> measure_pictures(const Options& options);
 
-/// The built-in scenes, and the given ones that has_transport().
+/// The built-in scenes.
 std::vector<Table> measure_transport(const Options& options);
-/// Whether the scene has light to sample at random: area lights, a sky, a lens or inter-reflection.
-bool has_transport(const Scene& scene);
-
-/// Each given scene with one ray a pixel, by our program and by every available engine that supports it.
-std::vector<Table> measure_engines(const Options& options);
-
-/// Each given scene, else everything(): a variant with all effects, and one without each effect that is on.
-std::vector<Table> measure_effects(const Options& options);
 
 }  // namespace lobelia::cost

@@ -109,7 +109,6 @@ Variant measured_lobe(const LobeVariant& variant, const LobeVariantErrors& error
   facts.shape = errors.shape;
   facts.rounding = errors.rounding;
   facts.rounding->max_at_most = variant.allowed;
-  facts.numbers_looked_at = largest.numbers;
   if (largest.at_most > largest.found) made.errors_at_most.emplace() = {{"max", largest.at_most}};
   return made;
 }

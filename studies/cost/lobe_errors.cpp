@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,11 +16,16 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/number_limits.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
-#include "studies/cost/quad.hpp"
 
 namespace lobelia::cost {
 namespace {
+
+/// The number in which errors of float and double are measured.
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+static_assert(std::numeric_limits<Quad>::digits == 113);
+const bool kQuadLimits = truth::made_limits<Quad>();
 
 constexpr std::size_t kCore = 2048, kTail = 512;
 

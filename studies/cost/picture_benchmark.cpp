@@ -123,8 +123,6 @@ Table table_of(const NamedScene& named, const Options& options) {
                       {"flip", error("flip.ldr.mean")},
                       {"max_rel_peak", error("max_rel_peak")}};
     records::CostFacts& facts = variant.facts.emplace();
-    facts.samples = c.first.samples;
-    facts.kernel = c.first.plan.kernel;
     facts.predicted_cost = accuracy::shading_cost(c.lobe, c.precision);
     facts.rays = rays_record(c.first.work);
   }

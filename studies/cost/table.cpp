@@ -35,19 +35,14 @@ const double* value_of(const std::optional<records::Named<double>>& values, cons
   return values ? records::find(*values, table.errors[error].id) : nullptr;
 }
 
-/// Both ends, where they are not the same in print; and the standard error of what was drawn from a count, where it is
-/// no smaller than the last digit.
+/// Both ends, where they are not the same in print.
 std::string error_text(const Table& table, const Variant& variant, std::size_t e) {
   const double error = variant.errors[e].second;
   if (std::isnan(error)) return "-";
   const std::string found = fmt::format("{:.3g}", error);
   const double* bound = value_of(variant.errors_at_most, table, e);
   const std::string most = bound ? fmt::format("{:.3g}", *bound) : found;
-  if (most != found) return found + ".." + most;
-  const double* spread = value_of(variant.error_spreads, table, e);
-  return !is_timed(table) && spread && *spread > 0.001 * error
-             ? fmt::format("{}+-{:.1g}", found, *spread)
-             : found;
+  return most == found ? found : found + ".." + most;
 }
 
 std::string one_table_text(const Table& table, bool all) {

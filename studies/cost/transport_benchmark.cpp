@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/error_time_chart.hpp"
 #include "reference_scenes/engine.hpp"
-#include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render_record.hpp"
 #include "studies/cost/convergence.hpp"
 #include "studies/cost/scenes.hpp"
@@ -98,7 +97,8 @@ class TransportEngine {
     }
     name = info->name;
     title = info->transport;
-    engine_ = make_engine(name, options.program(name));
+    const auto program = options.programs.find(name);
+    engine_ = make_engine(name, program == options.programs.end() ? "" : program->second);
     const EngineStatus& status = engine_->status();
     why_not = status.why;
     if (!status.available()) return;
@@ -131,13 +131,10 @@ class TransportEngine {
 
 void measure_engine(TransportEngine& by, const Scene& scene, int seed, const Converged& truth,
                     Series& series) {
-  // The fixed cost of a call: of this scene, which Cycles prepares anew for each picture.
-  const double tiny_seconds = by.render(with_film(scene, 8), 1, 1).record.seconds.total;
   for (Point& point : series.points) {
     const ReferenceResult result = by.render(scene, point.samples, std::uint64_t(seed));
     point.seconds.push_back(result.record.seconds.total);
     point.errors.push_back(rms_of_difference(result.image, truth.image));
-    point.facts.seconds_of_tiny_call = tiny_seconds;
   }
 }
 
@@ -286,34 +283,20 @@ Table measure_scene(const std::string& id, const std::string& title, const Scene
 
 }  // namespace
 
-bool has_transport(const Scene& scene) {
-  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
-  return plan.on<effects::AreaLights>() || plan.on<effects::Environment>() ||
-         plan.on<effects::Glossy>() || plan.on<effects::DepthOfField>();
-}
-
 std::vector<Table> measure_transport(const Options& options) {
   const int side = options.rounds(48, 96, 192);
   TransportEngine engine(options);
   std::vector<Table> tables;
-  const auto add = [&](const std::string& id, const std::string& title, const Scene& scene,
-                       TransportEngine* by, const std::string& why_not) {
-    tables.push_back(measure_scene(id, title, scene, by, options));
-    if (!by) tables.back().remarks.push_back(fmt::format("without {}: {}", engine.title, why_not));
+  const auto add = [&](const char* id, const char* title, const Scene& scene) {
+    Table& table =
+        tables.emplace_back(measure_scene(id, title, scene, engine ? &engine : nullptr, options));
+    if (!engine)
+      table.remarks.push_back(fmt::format("without {}: {}", engine.title, engine.why_not));
   };
-  const auto add_built_in = [&](const char* id, const char* title, const Scene& scene) {
-    add(id, title, scene, engine ? &engine : nullptr, engine.why_not);
-  };
-  add_built_in("rectangle_light", "A sphere on a plane below a rectangle of light",
-               below_rectangle(side));
-  add_built_in("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
-  add_built_in("inter_reflection",
-               "Below the rectangle, with light that goes from surface to surface",
-               with_inter_reflection(below_rectangle(side)));
-  for (const NamedScene& given : options.scenes)
-    if (has_transport(given.scene))
-      add(given.name, given.name, with_film(given.scene, side), nullptr,
-          "only the built-in scenes are told to it in this way (see the level engine)");
+  add("rectangle_light", "A sphere on a plane below a rectangle of light", below_rectangle(side));
+  add("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
+  add("inter_reflection", "Below the rectangle, with light that goes from surface to surface",
+      with_inter_reflection(below_rectangle(side)));
   return tables;
 }
 

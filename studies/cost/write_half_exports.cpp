@@ -1,5 +1,5 @@
 // write_half_exports FUNCTIONS LIST: the exported HLSL of every model and lobe in half floats, as the body of a class of
-// C++ in which min16float is an emulated half float, and a line for each function. exported_functions.hpp reads both.
+// C++ in which min16float is an emulated half float, and a line for each function. half_floats.cpp reads both.
 #include <fmt/format.h>
 
 #include "core/files.hpp"

@@ -1,7 +1,6 @@
 #include "studies/search/minimax.hpp"
 
 #include <fmt/format.h>
-#include <glpk.h>
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
@@ -14,28 +13,12 @@
 
 #include "core/error.hpp"
 #include "core/module.hpp"
+#include "studies/search/linear_program.hpp"
 
 namespace lobelia::search {
 namespace {
 
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_add_cols);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_add_rows);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_adv_basis);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_create_prob);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_delete_prob);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_get_col_prim);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_get_row_dual);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_get_status);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_init_smcp);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_scale_prob);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_col_bnds);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_mat_col);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_obj_coef);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_obj_dir);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_set_row_bnds);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_simplex);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_term_out);
-LOBELIA_MODULE_FUNCTION(glpk_module, glp_unscale_prob);
+constinit ModuleFunction<decltype(::lobelia_solve)> solve{glpk_module, "lobelia_solve"};
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 /// The target falls below 1e-26 there, and the lobes must be below their errors.
@@ -96,68 +79,43 @@ struct Program {
   std::vector<Touch> touches;  ///< weights not normalised
 };
 
-/// By the simplex method. It may lose its way or go in circles where inequalities are far apart in size or many are met at
-/// once, and then find it from another scale or by the dual method.
-bool solve(glp_prob* lp) {
-  constexpr int kMostSteps = 1000;  // ten times what is usual
-  glp_smcp options;
-  glp_init_smcp(&options);
-  options.msg_lev = GLP_MSG_OFF;
-  options.it_lim = kMostSteps;
-  for (const double tolerance : {1e-10, 1e-8})
-    for (const int method : {GLP_PRIMAL, GLP_DUALP})
-      for (const bool is_scaled : {false, true}) {
-        glp_unscale_prob(lp);
-        if (is_scaled) glp_scale_prob(lp, GLP_SF_AUTO);
-        glp_adv_basis(lp, 0);
-        options.meth = method;
-        options.tol_bnd = options.tol_dj = tolerance;
-        if (glp_simplex(lp, &options) == 0 && glp_get_status(lp) == GLP_OPT) return true;
-      }
-  return false;
-}
-
 /// The polynomial that is deepest inside of all bands, by the simplex method. The program that is solved is the dual one:
 /// it has a row for each coefficient and a column for each of many inequalities, and so a basis that is small.
 Program deepest(const Shape& shape, const Range& range, const std::vector<Point>& points,
                 double error, double slope) {
-  const auto end = [](glp_prob* lp) { glp_delete_prob(lp); };
-  const std::unique_ptr<glp_prob, decltype(end)> program(glp_create_prob(), end);
-  glp_prob* lp = program.get();
-  glp_set_obj_dir(lp, GLP_MAX);
-  const int terms = shape.coefficients(), excess = terms + 1;
-  glp_add_rows(lp, excess);
-  for (int k = 1; k <= excess; ++k) glp_set_row_bnds(lp, k, GLP_FX, k == excess, k == excess);
-  std::vector<int> rows(std::size_t(excess) + 1);
-  std::vector<double> values(std::size_t(excess) + 1);
-  for (int k = 1; k <= excess; ++k) rows[std::size_t(k)] = k;
-  // Adds the dual's column for the inequality: sum of factor(k) c_k - by_excess * excess <= bound. Returns the column and
-  // the number by which it was divided.
+  const int terms = shape.coefficients();
+  const auto excess = std::size_t(terms);  // the last row
+  LinearProgram program;
+  program.sums.resize(excess + 1);
+  program.sums[excess] = 1;
+  // Adds the dual's column for the inequality: sum of factor(k) c_k - by_excess * excess <= bound. Returns the number by
+  // which it was divided.
   const auto add = [&](const auto& factor, double by_excess, double bound) {
+    std::vector<double>& values = program.columns.emplace_back();
     double most = by_excess;
-    for (int k = 1; k <= terms; ++k)
-      most = std::max(most, std::abs(values[std::size_t(k)] = factor(k - 1)));
-    values[std::size_t(excess)] = by_excess;
+    for (int k = 0; k < terms; ++k) {
+      values.push_back(factor(k));
+      most = std::max(most, std::abs(values.back()));
+    }
+    values.push_back(by_excess);
     for (double& value : values) value /= most;
-    const int column = glp_add_cols(lp, 1);
-    glp_set_mat_col(lp, column, excess, rows.data(), values.data());
-    glp_set_col_bnds(lp, column, GLP_LO, 0, 0);
-    glp_set_obj_coef(lp, column, -bound / most);
-    return std::pair(column, most);
+    program.objective.push_back(-bound / most);
+    return most;
   };
   // In the middle of all bands there is no deeper.
   add([](int) { return 0.0; }, 1, 1);
   struct Edge {
     Point point;
     double sign, scale;
-    int column;
+    std::size_t column;
   };
   std::vector<Edge> edges;
   const auto add_point = [&](const Point& p, double low, double high) {
     const double width = (high - (low > -kNone ? low : outer_inverse(shape, error / 2) - 1)) / 2;
     const auto add_edge = [&](double sign, double bound) {
-      const auto [column, scale] = add([&](int k) { return sign * term(shape, range, p, k); },
-                                       width, sign * (bound - shape.start()));
+      const std::size_t column = program.columns.size();
+      const double scale = add([&](int k) { return sign * term(shape, range, p, k); }, width,
+                               sign * (bound - shape.start()));
       edges.push_back({p, sign, scale, column});
     };
     add_edge(1, high);
@@ -184,14 +142,15 @@ Program deepest(const Shape& shape, const Range& range, const std::vector<Point>
           },
           0, -kLeastLeading);
   }
-  if (!solve(lp))
+  LinearSolution solution;
+  if (!solve(program, solution))
     throw Error(ExitCode::kInternal,
                 fmt::format("the linear program of {} has no solution", name(shape)));
   Program result;
-  result.excess = glp_get_row_dual(lp, excess);
-  for (int k = 1; k <= terms; ++k) result.c.push_back(-glp_get_row_dual(lp, k));
+  result.excess = solution.duals[excess];
+  for (std::size_t k = 0; k < excess; ++k) result.c.push_back(-solution.duals[k]);
   for (const Edge& edge : edges)
-    if (const double weight = glp_get_col_prim(lp, edge.column); weight > 1e-9)
+    if (const double weight = solution.x[edge.column]; weight > 1e-9)
       result.touches.push_back(
           {edge.point.t, edge.point.v, edge.sign * error, weight / edge.scale});
   return result;
@@ -412,7 +371,6 @@ double lower_bound_of(const Shape& shape, const std::vector<Touch>& touches) {
 }
 
 Minimax minimax(const Shape& shape, const Range& range, double slope) {
-  glp_term_out(GLP_OFF);
   Minimax best = exchange(shape, range, slope);
   // Where not only the errors stop the polynomial, all polynomials still have a certificate.
   if (!best.lobe.c.empty() && best.lower_bound < best.error * 0.99) {

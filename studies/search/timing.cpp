@@ -1,6 +1,7 @@
 #include "studies/search/timing.hpp"
 
-#include "core/aligned.hpp"
+#include <oneapi/tbb/cache_aligned_allocator.h>
+
 #include "studies/cost/lobe_variants.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -90,7 +91,7 @@ std::vector<Times> times_of(std::span<const Lobe> lobes, const LobeId& last) {
   constexpr std::size_t kCount = 4096, kRepeats = 32;
   constexpr int kRounds = 31;
   constexpr double kExponent = 64;
-  const auto s = aligned_floats(kCount), value = aligned_floats(kCount);
+  std::vector<float, oneapi::tbb::cache_aligned_allocator<float>> s(kCount), value(kCount);
   for (std::size_t i = 0; i < kCount; ++i) s[i] = float(i) / kCount;
   std::vector<std::function<void()>> cases;
   const auto add = [&](const auto& values) {
@@ -98,8 +99,8 @@ std::vector<Times> times_of(std::span<const Lobe> lobes, const LobeId& last) {
       for (std::size_t i = 0; i < kRepeats; ++i) values();
     });
   };
-  const float* from = s.get();
-  float* to = value.get();
+  const float* from = s.data();
+  float* to = value.data();
   for (const Lobe& lobe : lobes) add([=, &lobe] { evaluate(lobe, kExponent, kCount, from, to); });
   add([=] { cost::lobe_lanes(last, kExponent, kCount, from, to); });
   std::vector<Times> times = interleaved(cases, kRounds);

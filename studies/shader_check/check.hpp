@@ -20,7 +20,7 @@ struct Request {
   std::vector<double> exponents;            ///< not empty
   double shown_exponent = 64;               ///< of pictures and the curve
   TimeLimit time_limit = kShaderTimeLimit;  ///< of all that compiles and runs shaders, together
-  bool costs = true;  ///< whether to measure half floats, instructions and time
+  bool costs = true;                        ///< whether to measure half floats and instructions
 };
 inline constexpr double kUsualExponents[] = {1, 4, 16, 64, 256, 1000};
 

@@ -14,9 +14,6 @@
 namespace lobelia::shader_check {
 namespace {
 
-constexpr std::size_t kRepeats = 256;
-constexpr int kRounds = 15;
-
 /// The exported function of the model, in the shader's own language.
 ShaderSource ours(const Request& request) {
   const ShaderText language = request.language;
@@ -50,14 +47,6 @@ ShaderSource power(ShaderText language) {
           {fmt::format("lobelia_pow({}, {})", common_vectors(language), common_exponent())}};
 }
 
-/// What a call has besides the function: it adds up arguments.
-ShaderSource nothing(ShaderText language) {
-  return {language,
-          "nothing",
-          "",
-          {shader_component(0) + " + " + shader_component(3) + " + " + shader_component(6)}};
-}
-
 class Costs {
  public:
   Costs(const Request& request, const Arguments& arguments, const ShaderPoints& points,
@@ -68,9 +57,8 @@ class Costs {
                  request.text,
                  {arguments.call(request.function, request.language)}},
                 ours(request),
-                power(request.language),
-                nothing(request.language)};
-    for (const char* name : {"function", "ours", "pow"}) record.costs.push_back({name, {}, {}});
+                power(request.language)};
+    for (const char* name : {"function", "ours", "pow"}) record.costs.push_back({name, {}});
   }
 
   /// Runs `measure`, whose failure is only a remark.
@@ -81,31 +69,6 @@ class Costs {
     } catch (const Error& error) {
       if (error.code() == ExitCode::kInterrupted) throw;
       record_.remarks.push_back(fmt::format("not measured: {}: {}", what, error.lines().front()));
-    }
-  }
-
-  void time() {
-    std::vector<ShaderProgram> programs;
-    for (ShaderSource source : sources_) {
-      source.repeats = kRepeats;
-      programs.push_back(make_program(source, request_.api, points_.count(), points_.components,
-                                      request_.time_limit));
-    }
-    const ShaderRun run =
-        run_programs(request_.api, points_, programs, 1, {request_.time_limit, kRounds});
-    const double calls = double(points_.count() * kRepeats);
-    for (std::size_t k = 0; k < record_.costs.size(); ++k) {
-      // Round by round, because a busy machine slows down neighbours alike.
-      std::vector<double> seconds;
-      for (std::size_t round = 0; round < run.seconds[k].size(); ++round)
-        seconds.push_back((run.seconds[k][round] - run.seconds.back()[round]) / calls);
-      std::ranges::sort(seconds);
-      const auto at = [&](double share) {
-        return seconds[std::size_t(share * double(seconds.size() - 1))];
-      };
-      record_.costs[k].seconds = records::MeasuredRounds{
-          at(0.5), (at(0.75) - at(0.25)) / 2 / std::max(std::abs(at(0.5)), 1e-30), at(0), at(1),
-          int(seconds.size())};
     }
   }
 
@@ -172,14 +135,13 @@ double times_as_long_as_pow(const Request& request, const ShaderProgram& program
 void add_costs(const Request& request, const Arguments& arguments, const std::vector<Point>& domain,
                const ShaderPoints& points, const std::vector<ShaderValue>& values,
                records::ShaderCheck& record) {
-  Costs costs(request, arguments, points, record);
   if (request.language == ShaderText::kWgsl) {
     record.remarks.push_back("not measured: instructions and half floats: glslang has no WGSL");
-  } else {
-    costs.try_to("instructions", [&] { costs.count(); });
-    costs.try_to("half floats", [&] { costs.half_floats(domain, values); });
+    return;
   }
-  costs.try_to("time", [&] { costs.time(); });
+  Costs costs(request, arguments, points, record);
+  costs.try_to("instructions", [&] { costs.count(); });
+  costs.try_to("half floats", [&] { costs.half_floats(domain, values); });
 }
 
 }  // namespace lobelia::shader_check

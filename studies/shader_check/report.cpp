@@ -78,27 +78,12 @@ std::string half_text(const std::vector<records::ShaderHalf>& half) {
 }
 
 std::string cost_text(const std::vector<records::ShaderCost>& costs) {
-  std::string instructions, seconds;
-  for (const records::ShaderCost& cost : costs) {
-    const std::string name = cost.name == "function" ? "it" : cost.name;
+  std::string text;
+  for (const records::ShaderCost& cost : costs)
     if (cost.instructions)
-      instructions +=
-          fmt::format("{}{} {}", instructions.empty() ? "" : ", ", name, *cost.instructions);
-    if (cost.seconds)
-      seconds += fmt::format("{}{} {:.2f} ns ({:.0f} %)", seconds.empty() ? "" : ", ", name,
-                             1e9 * cost.seconds->median, 100 * cost.seconds->spread);
-  }
-  std::string text = instructions.empty() && seconds.empty() ? "" : "\n";
-  if (!instructions.empty()) text += "instructions of optimised SPIR-V: " + instructions + "\n";
-  if (!seconds.empty()) {
-    text += "time of a call (spread): " + seconds;
-    const auto &it = costs[0].seconds, &ours = costs[1].seconds, &pow = costs[2].seconds;
-    if (it && ours && pow && ours->median > 0 && pow->median > 0)
-      text += fmt::format("; {:.2f} of ours, {:.2f} of pow", it->median / ours->median,
-                          it->median / pow->median);
-    text += "\n";
-  }
-  return text;
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                          cost.name == "function" ? "it" : cost.name, *cost.instructions);
+  return text.empty() ? "" : "\ninstructions of optimised SPIR-V: " + text + "\n";
 }
 
 }  // namespace

@@ -234,31 +234,6 @@ std::string digits(const Rows& rows) {
   return table_text(table);
 }
 
-std::string timings(const records::VerifyStability& report) {
-  Table stalls{"Results that would be denormal, beside ordinary ones: ns a point at n = 1024\n",
-               {{"lobe", -20, "", 2},
-                {"precision", -10},
-                {"ordinary", 10, "{:.2f}"},
-                {"underflow", 11, "{:.2f}"},
-                {"ratio", 8, "{:.2f}"}},
-               {}};
-  for (const records::StabilityStall& s : report.stalls) {
-    const double ordinary = s.ordinary_nanoseconds.median, tiny = s.underflow_nanoseconds.median;
-    stalls.rows.push_back({s.lobe, s.precision, ordinary, tiny, tiny / ordinary});
-  }
-  Table prices{
-      "The price of precision: ns a point, median (and spread between the quartiles)\n",
-      {{"lobe", -20, "", 2}, {"model", -24}, {"float32", 16}, {"mixed", 16}, {"float64", 16}},
-      {}};
-  const auto text = [](const records::Nanoseconds& t) {
-    return fmt::format("{:>8.2f} ({:.2f}) ", t.median, t.spread);
-  };
-  for (const records::StabilityPrice& p : report.price)
-    prices.rows.push_back({p.lobe, p.model, text(p.float32_nanoseconds), text(p.mixed_nanoseconds),
-                           text(p.float64_nanoseconds)});
-  return table_text(stalls) + table_text(prices);
-}
-
 }  // namespace
 
 Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress) {
@@ -317,7 +292,6 @@ std::string report_text(const records::VerifyStability& report, bool all) {
                 summary_text(report.by_case, "worst of each case",
                              &records::StabilityOfCase::name) +
                 digits(report.rows);
-  if (!report.stalls.empty()) text += timings(report);
   for (const records::StabilityPictures& p : report.pictures)
     text += fmt::format(
         "\nclose to a highlight of n = {:g}: naive off by {:.2g} of the peak, ours by {:.2g}",

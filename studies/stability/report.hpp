@@ -1,4 +1,4 @@
-// The study of the hard cases: its rows and their worst, timings, pictures, and its text.
+// The study of the hard cases: its rows and their worst, pictures, and its text.
 #pragma once
 
 #include <filesystem>
@@ -17,16 +17,6 @@ Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)
 /// Modified Phong's cos^n, from the peak to a thousandth of it, for n = 16 to 1e8. Ours is in the precision that a plan
 /// would choose.
 std::vector<records::StabilityCurve> error_curves();
-
-// Timings are medians of interleaved repeats, so that a change in the machine's speed affects all alike. They are
-// printed and recorded, never asserted.
-
-/// A kernel on inputs with denormal results, beside ordinary ones, for the lobes that get that small; and last, for
-/// scale, a product of numbers with a denormal result ("no care").
-std::vector<records::StabilityStall> measure_stalls(const std::vector<LobeId>& lobes);
-
-/// Shading a point in each precision.
-std::vector<records::StabilityPrice> measure_prices(const std::vector<LobeId>& lobes);
 
 /// Writes a modified Phong highlight cos^n, so close that it fills the picture, for n = 1e3, 1e5, 1e6:
 /// stability-nN-naive.exr, .png, -error.png and the same of ours, and stability.png: all in one, a row for each

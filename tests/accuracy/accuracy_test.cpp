@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/lobe_candidates.hpp"
-#include "core/error.hpp"
 #include "core/image_values.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/json.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia::accuracy {
 namespace {
@@ -39,17 +39,6 @@ Image picture(const Choice& choice) {
   RenderOptions options;
   choice.apply(options);
   return render(choice.scene, options).image;
-}
-
-std::string message(const std::function<void()>& action, ExitCode code) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
 }
 
 /// Chooses for each of the accuracies, from the loosest, and holds the pictures to them.
@@ -127,7 +116,7 @@ TEST(Accuracy, TakesMoreSamplesTheMoreIsAskedAndSaysWhatIsPossible) {
   EXPECT_LT(*loose.samples, *tight.samples);
   EXPECT_EQ(loose.measure, Measure::kRmsOfPeak);
   const auto few = [&](const char* text) { choose(s, parse_accuracy(text), 2); };
-  const std::string error = message([&] { few("0.001"); }, ExitCode::kInput);
+  const std::string error = error_words(ExitCode::kInput, [&] { few("0.001"); });
   EXPECT_THAT(error, HasSubstr("cannot be reached with 2 samples"));
   const std::size_t at = error.rfind("--accuracy ");
   ASSERT_NE(at, std::string::npos);
@@ -178,7 +167,7 @@ TEST(Accuracy, KeepsHighlightsThatDifferWhereNoLobeStandsForAll) {
   EXPECT_TRUE(as_json(accuracy_record(choice, {}))["chose"]["lobe"].is_null());
 }
 
-TEST(Accuracy, WithoutABoundIsTheScenesOwnLobeInFloat64) {
+TEST(Accuracy, TakesTheScenesOwnLobeInFloat64WithoutABound) {
   // Light from straight ahead: some half vector is unknown, and no precision has a bound.
   Scene s = with_highlight(scene("head_on"), 64, "cosine", "blinn_phong_rdf");
   std::get<DirectionalLight>(s.lights[0]).direction = {0, 0, 1};
@@ -190,7 +179,7 @@ TEST(Accuracy, WithoutABoundIsTheScenesOwnLobeInFloat64) {
   EXPECT_TRUE(measure_reached(s, choice, picture(choice)).held(choice));
 }
 
-TEST(Accuracy, OfABlackPictureIsHeldAndSaysThatThereWasNothingToMeasure) {
+TEST(Accuracy, HoldsForABlackPictureAndSaysThatNothingWasMeasured) {
   Scene dark = scene("head_on");
   std::get<DirectionalLight>(dark.lights[0]).irradiance = {};
   Scene dark_noise = dark;
@@ -210,7 +199,7 @@ TEST(Accuracy, OfABlackPictureIsHeldAndSaysThatThereWasNothingToMeasure) {
     }
 }
 
-TEST(Accuracy, OfAHighlightThatTheLookMissedIsMeasuredAllTheSame) {
+TEST(Accuracy, IsMeasuredForAHighlightThatTheLookMissed) {
   // A highlight a few pixels wide between the pixels that are looked at.
   Scene s = with_highlight(scene("oblique_45", 2048), 1e8, "cosine");
   const Choice choice = choose(s, parse_accuracy("1e-3"));
@@ -247,7 +236,8 @@ TEST(ParseAccuracy, TakesAShareOfThePeakOrACiede2000) {
   EXPECT_EQ(parse_accuracy("de2000=2").unit, Accuracy::Unit::kCiede2000);
   for (const char* text : {"", "0", "-1", "nan", "inf", "2", "1e-7", "de2000",
                            "de2000=", "de2000=0", "de2000=nan", "de2000=101", "flip=1", "1e-3x"})
-    EXPECT_THAT(message([&] { parse_accuracy(text); }, ExitCode::kUsage), HasSubstr("1e-06 to 1"))
+    EXPECT_THAT(error_words(ExitCode::kUsage, [&] { parse_accuracy(text); }),
+                HasSubstr("1e-06 to 1"))
         << text;
 }
 

@@ -40,7 +40,7 @@ TEST(PixelSubset, IsOfThePicturesOwnPixels) {
   EXPECT_GT(most, 1);
 }
 
-TEST(PixelSubset, OfASmallPictureIsThePicture) {
+TEST(PixelSubset, IsTheWholeOfASmallPicture) {
   const Scene s = oblique(40);
   EXPECT_EQ(pixel_subset(s, 40).film.width, 40);
   EXPECT_EQ(pixel_subset(s, 40).camera.fov_degrees, s.camera.fov_degrees);

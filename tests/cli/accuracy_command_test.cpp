@@ -46,18 +46,7 @@ TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
   EXPECT_FALSE(record["accuracy"].contains("reached"));
 }
 
-TEST(RenderAccuracy, ChoosesSamplesWhereTheSceneIsRandom) {
-  const TemporaryDirectory directory;
-  const auto result =
-      render(directory, "effects/area_light.xml", {"--accuracy", "0.05", "--max-samples", "64"});
-  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  const Json record = read_json(directory.path() / "x.json");
-  EXPECT_EQ(record["samples"], record["accuracy"]["chose"]["samples"]);
-  EXPECT_LE(record["samples"], 64);
-  EXPECT_THAT(record["stopped"].get<std::string>(), HasSubstr("what --accuracy chose"));
-}
-
-TEST(RenderAccuracy, ThatNothingReachesIsAnErrorThatNamesTheBestAndLeavesNothing) {
+TEST(RenderAccuracy, FailsOutOfReachNamesTheBestAndLeavesNothing) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "effects/area_light.xml",
                              {"--accuracy", "1e-6", "--max-samples", "4", "-q"});
@@ -80,18 +69,21 @@ TEST(RenderAccuracy, RefusesNonsenseAndWhatItChoosesItself) {
   EXPECT_EQ(files_in(directory.path()), 0u);
 }
 
-void expect_measures(const char* level) {
+TEST(CostCommand, MeasuresPictures) {
   const TemporaryDirectory directory;
-  const auto result =
-      run_lobelia({"cost", "--quick", "--level", level, kScenes + "oblique_45.xml", "-o", "cost"},
-                  directory.path());
+  const auto result = run_lobelia(
+      {"cost", "--quick", "--level", "picture", kScenes + "oblique_45.xml", "-o", "cost"},
+      directory.path());
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   const Json record = read_json(directory.path() / "cost" / "cost.json");
   EXPECT_FALSE(record.at("tables").at(0).at("ways").empty());
 }
 
-TEST(CostCommand, MeasuresPictures) { expect_measures("picture"); }
-TEST(CostCommand, MeasuresItselfAsAProgram) { expect_measures("engine"); }
+TEST(CostCommand, SaysWhatToUseForALevelThatIsGone) {
+  const TemporaryDirectory directory;
+  for (const char* level : {"fixed-point", "engine"})
+    expect_one_line(run_lobelia({"cost", "--level", level}, directory.path()), 2, "; use lobelia ");
+}
 
 }  // namespace
 }  // namespace lobelia

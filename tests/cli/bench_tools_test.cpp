@@ -56,7 +56,7 @@ TEST_F(BenchTools, FindAProgramThatBecameSlowerAndSayWhichCommand) {
   write_file(slow, fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && sleep 1\nexec {} \"$@\"\n",
                                shell_quote(LOBELIA_PROGRAM)));
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
-  // Of 18 pairs, two may be disturbed.
+  // Two of 18 pairs may be disturbed.
   const auto pair = [&](const std::string& a, const std::string& b) {
     return run({LOBELIA_BENCH_PAIRED, a, b, "--rounds", "18", "--only", "start"});
   };

@@ -90,7 +90,7 @@ TEST(Help, IsThereForEveryCommandAndNamesThoseBelowIt) {
   }
 }
 
-TEST(Help, AndVersionAreWordsToo) {
+TEST(Help, IsAWordTooAsIsVersion) {
   const TemporaryDirectory directory;
   const auto printed = [&](std::vector<std::string> arguments) {
     const auto result = run_lobelia(std::move(arguments), directory.path());
@@ -146,19 +146,13 @@ TEST(Colours, AreForTerminalsWithoutNoColor) {
   }
 }
 
-/// What users take for a scene.
-TEST(Scene, OfAnotherProgramIsNamed) {
+/// Files that users take for a scene.
+TEST(Scene, IsNamedIfItIsOfAnotherProgram) {
   const TemporaryDirectory directory;
   for (const auto& [text, named] : {
-           std::pair<std::string, std::string>{"LookAt 0 0 0\nWorldBegin\n", "is a pbrt scene"},
-           {" {\"asset\":{\"version\":\"2.0\"}}", "is a glTF model"},
-           {std::string("glTF\x02\x00\x00\x00", 8), "is a glTF model"},
-           {"# Blender\nmtllib a.mtl\nv 0 0 1\n", "is an OBJ mesh"},
-           {"[1, 2]", "is JSON"},
-           {"{\n  \"schemaVersion\": 1,\n", "is a record of Lobelia"},
-           {"#version 3.7;\n", "is a POV-Ray scene"},
-           {"#usda 1.0\n", "is a USD scene"},
-           {"BLENDER-v304", "is a Blender file"},
+           std::pair<std::string, std::string>{"LookAt 0 0 0\nWorldBegin\n",
+                                               "is no XML; Lobelia reads scenes in its own XML"},
+           {" {\"asset\":{\"version\":\"2.0\"}}", "is no XML"},
            {"<scene version=\"3.0.0\"><bsdf/></scene>", "--from mitsuba -o OUT.xml"},
            {"<grid version=\"1\"/>", "For a grid, type lobelia farm"},
            {"<scene version=\"1\"><camera/></scene>", "did you mean 'sensor'?"},

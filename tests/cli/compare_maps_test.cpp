@@ -32,7 +32,7 @@ class CompareMaps : public ComparePictures {
   }
 };
 
-TEST_F(CompareMaps, OfFoldersHaveOneScaleForTheWholeSet) {
+TEST_F(CompareMaps, HaveOneScaleForAllPicturesOfFolders) {
   for (const std::string of : {"channels", "abs"}) {
     EXPECT_EQ(maps({"--diff-of", of}).exit_code, 1);
     EXPECT_LT(brightest("near"), 0.6f * brightest("far")) << of;
@@ -55,7 +55,7 @@ TEST_F(CompareMaps, StayInTheirFolderWhateverATableCallsThePair) {
   EXPECT_FALSE(fs::exists(directory_.path().parent_path() / "evil.png"));
 }
 
-TEST_F(CompareMaps, OfPairsThatPassAreLeftOutOnRequest) {
+TEST_F(CompareMaps, LeaveOutPairsThatPassOnRequest) {
   for (const std::string of : {"channels", "flip.ldr"}) {
     EXPECT_EQ(maps({"--diff-only-failed", "--diff-of", of}).exit_code, 1);
     EXPECT_FALSE(fs::exists(map("equal"))) << of;
@@ -64,7 +64,7 @@ TEST_F(CompareMaps, OfPairsThatPassAreLeftOutOnRequest) {
   }
 }
 
-TEST_F(CompareMaps, OfFlipAreFromZeroToOneAndThatOfTheExposuresOverTheirRange) {
+TEST_F(CompareMaps, ScaleFlipToOneAndExposuresToTheirRange) {
   const std::vector<std::string> pair{"A/far.exr", "B/far.exr", "--diff-image", "map.png",
                                       "--diff-of"};
   const auto with = [&](std::vector<std::string> more) {

@@ -23,9 +23,10 @@ class ComparePictures : public ::testing::Test {
   void file(const std::string& name, const std::string& bytes) { write_file(path(name), bytes); }
   void exr(const std::string& name, int width, int height,
            const std::vector<ExrChannel>& channels) {
+    std::filesystem::create_directories(path(name).parent_path());
     write_exr_channels(path(name), width, height, channels);
   }
-  /// R, G and B of one value each, and whatever else.
+  /// R, G and B of one value each, and whatever else; makes the folder, too.
   void flat(const std::string& name, float value, std::vector<ExrChannel> more = {}) {
     const std::vector<float> values(32 * 32, value);
     for (const char* channel : {"R", "G", "B"}) more.push_back({channel, values});

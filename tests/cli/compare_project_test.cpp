@@ -2,7 +2,6 @@
 #include <fmt/chrono.h>
 
 #include <ctime>
-#include <filesystem>
 #include <random>
 
 #include "tests/cli/compare_pictures_fixture.hpp"
@@ -13,16 +12,9 @@ namespace {
 using namespace fixtures;
 using ::testing::HasSubstr;
 using ::testing::Not;
-namespace fs = std::filesystem;
 
 class CompareProject : public ComparePictures {
  protected:
-  /// A picture of one grey.
-  void grey(const std::string& name, float value) {
-    fs::create_directories(path(name).parent_path());
-    const std::vector<float> values(32 * 32, value);
-    write_exr_channels(path(name), 32, 32, {{"R", values}, {"G", values}, {"B", values}});
-  }
   void project(const std::string& content, const std::string& name = "lobelia.toml") {
     file(name, content);
   }
@@ -37,17 +29,17 @@ class CompareProject : public ComparePictures {
 
 constexpr char kTwoFolders[] = "judged = [\"mine\"]\nreferences = [\"truth\"]\n";
 
-TEST_F(CompareProject, InThisDirectoryNeedsNoOption) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+TEST_F(CompareProject, NeedsNoOptionInItsDirectory) {
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
   EXPECT_EQ(compare({}).exit_code, 2);
   project(kTwoFolders);
   EXPECT_EQ(compare({}).exit_code, 0);
-  grey("mine/x.exr", 0.6f);
+  flat("mine/x.exr", 0.6f);
   EXPECT_EQ(compare({}).exit_code, 1);
 }
 
 TEST_F(CompareProject, HasPathsFromItsOwnDirectoryAndMayBeJson) {
-  grey("tests/mine/x.exr", 0.5f), grey("tests/truth/x.exr", 0.5f);
+  flat("tests/mine/x.exr", 0.5f), flat("tests/truth/x.exr", 0.5f);
   project(kTwoFolders, "tests/p.toml");
   project(R"({"judged": ["mine"], "references": ["truth"]})", "tests/p.json");
   for (const char* file : {"tests/p.toml", "tests/p.json"})
@@ -55,7 +47,7 @@ TEST_F(CompareProject, HasPathsFromItsOwnDirectoryAndMayBeJson) {
 }
 
 TEST_F(CompareProject, GivesWayToTheCommandLine) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.55f), grey("other/x.exr", 0.55f);
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.55f), flat("other/x.exr", 0.55f);
   project(std::string(kTwoFolders) + "fail = [\"max_abs=0.01\"]\ndefaultLimits = false\n");
   EXPECT_EQ(compare({}).exit_code, 1);
   EXPECT_EQ(compare({"--project", "lobelia.toml", "--fail", "max_abs=0.1"}).exit_code, 0);
@@ -65,7 +57,7 @@ TEST_F(CompareProject, GivesWayToTheCommandLine) {
 
 TEST_F(CompareProject, HasRulesOfWhichTheLastThatFitsCountsMost) {
   for (const char* name : {"glossy/a.exr", "glossy/b.exr", "matt.exr"})
-    grey(std::string("mine/") + name, 0.55f), grey(std::string("truth/") + name, 0.5f);
+    flat(std::string("mine/") + name, 0.55f), flat(std::string("truth/") + name, 0.5f);
   project(std::string(kTwoFolders) + "fail = [\"max_abs=0.01\"]\ndefaultLimits = false\n" +
           "[[rules]]\nmatch = \"glossy/*\"\nfail = [\"max_abs=0.1\"]\n" +
           "[[rules]]\nmatch = \"*/b.exr\"\nfail = [\"max_abs=0.02\"]\n");
@@ -77,7 +69,7 @@ TEST_F(CompareProject, HasRulesOfWhichTheLastThatFitsCountsMost) {
 
 TEST_F(CompareProject, HasMasksAndIgnoredPartsByName) {
   for (const char* name : {"x.exr", "y.exr"})
-    grey(std::string("mine/") + name, 0.6f), grey(std::string("truth/") + name, 0.5f);
+    flat(std::string("mine/") + name, 0.6f), flat(std::string("truth/") + name, 0.5f);
   project(std::string(kTwoFolders) + "defaultLimits = false\nfail = [\"max_abs=0.01\"]\n" +
           "[[rules]]\nmatch = \"x.*\"\nignore = [\"rect:0,0,32,31\", \"rect:0,31,31,1\"]\n" +
           "fail = [\"share_over.abs=0.05=1%\"]\ndefaultLimits = false\n");
@@ -91,8 +83,8 @@ TEST_F(CompareProject, HasMasksAndIgnoredPartsByName) {
 }
 
 TEST_F(CompareProject, MayAcceptSeveralReferencesOfWhichTheBestCounts) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("mac/x.exr", 0.5f);
-  grey("mine/y.exr", 0.5f), grey("mac/y.exr", 0.7f), grey("truth/y.exr", 0.9f);
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.6f), flat("mac/x.exr", 0.5f);
+  flat("mine/y.exr", 0.5f), flat("mac/y.exr", 0.7f), flat("truth/y.exr", 0.9f);
   project("judged = [\"mine\"]\nreferences = [\"truth\", \"mac\"]\n");
   const auto result = compare({"--project", "lobelia.toml", "--json", "set.json"});
   EXPECT_EQ(result.exit_code, 1);
@@ -108,7 +100,7 @@ TEST_F(CompareProject, MayAcceptSeveralReferencesOfWhichTheBestCounts) {
 }
 
 TEST_F(CompareProject, ExcusesAKnownDifferenceUntilItExpires) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f);
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.6f);
   const auto known = [](const std::string& day) {
     return std::string(kTwoFolders) +
            "[[known]]\nmatch = \"x.*\"\nreason = \"the <b>new</b> lamp\"\nexpires = " + day + "\n";
@@ -134,14 +126,14 @@ TEST_F(CompareProject, ExcusesAKnownDifferenceUntilItExpires) {
   result = compare({});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.output_tail, HasSubstr("known, but expired on 2001-01-01"));
-  grey("mine/x.exr", 0.6f);
+  flat("mine/x.exr", 0.6f);
   result = compare({});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output_tail, HasSubstr("no longer   x.exr: it passes"));
 }
 
-TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+TEST_F(CompareProject, IsRefusedWithThePlaceOfItsMistake) {
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
   const std::string two = kTwoFolders;
   expect_refused("judged = [", "line 1, column ");
   expect_refused(two + "fial = [\"rmse=1\"]\n", "fial: there is no such key; did you mean 'fail'?");
@@ -172,7 +164,7 @@ TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
   EXPECT_EQ(compare({"--project", "gone.toml"}).exit_code, 3);
 }
 
-TEST_F(CompareProject, OfJsonIsRefusedIfItSaysAThingTwiceOrIsTooDeep) {
+TEST_F(CompareProject, IsRefusedAsJsonWithAKeyTwiceOrTooDeep) {
   for (const auto& [text, why] :
        {std::pair(std::string(R"({"judged": ["a"], "references": ["b"], "judged": ["c"]})"),
                   "the key judged stands twice"),
@@ -188,7 +180,7 @@ TEST_F(CompareProject, OfJsonIsRefusedIfItSaysAThingTwiceOrIsTooDeep) {
 }
 
 TEST_F(CompareProject, MayHaveManyDotsInItsTexts) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
   const std::string dots(100, '.');
   project(kTwoFolders + ("title = \"" + dots + "\\\"" + dots + "\" # " + dots + "\n") +
           "[[known]]\nmatch = '" + dots + "'\nexpires = 2027-01-31\nreason = \"\"\"\n\"" + dots +
@@ -198,7 +190,7 @@ TEST_F(CompareProject, MayHaveManyDotsInItsTexts) {
 }
 
 TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
   std::mt19937 random(4);
   const std::string good =
       std::string(kTwoFolders) + "fail = [\"rmse=1\"]\n[[rules]]\nmatch = \"*\"\n";
@@ -218,8 +210,8 @@ TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
 }
 
 TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {
-  grey("mine/a|b,c%<i>.exr", 0.5f), grey("truth/a|b,c%<i>.exr", 0.6f);
-  grey("mine/fine.exr", 0.5f), grey("truth/fine.exr", 0.5f);
+  flat("mine/a|b,c%<i>.exr", 0.5f), flat("truth/a|b,c%<i>.exr", 0.6f);
+  flat("mine/fine.exr", 0.5f), flat("truth/fine.exr", 0.5f);
   project(kTwoFolders);
   const ProcessResult markdown = compare({"--project", "lobelia.toml", "--markdown", "-"});
   EXPECT_EQ(markdown.exit_code, 1);
@@ -236,8 +228,8 @@ TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {
 }
 
 TEST_F(CompareProject, IsQuietVerboseAndColouredOnRequest) {
-  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f);
-  grey("mine/fine.exr", 0.5f), grey("truth/fine.exr", 0.5f);
+  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.6f);
+  flat("mine/fine.exr", 0.5f), flat("truth/fine.exr", 0.5f);
   project(kTwoFolders);
   const auto told = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"--project", "lobelia.toml"});
@@ -251,14 +243,14 @@ TEST_F(CompareProject, IsQuietVerboseAndColouredOnRequest) {
   EXPECT_THAT(told({"--color", "always"}), HasSubstr("\x1b[31mdiffers"));
 }
 
-TEST_F(CompareProject, OfTheDocumentationIsOne) {
+TEST_F(CompareProject, RunsAsTheDocumentationShowsIt) {
   const std::string page =
       read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/comparing.md", 1 << 20);
   const std::size_t start = page.find("```toml\n") + 8;
   project(page.substr(start, page.find("```", start) - start));
-  grey("masks/ball.png", 1);  // its bytes tell that it is an EXR
+  flat("masks/ball.png", 1);  // its bytes tell that it is an EXR
   for (const char* folder : {"renders/", "references/", "references-mac/"})
-    grey(std::string(folder) + "cloth_n20000.exr", folder[2] == 'n' ? 0.5f : 0.6f);
+    flat(std::string(folder) + "cloth_n20000.exr", folder[2] == 'n' ? 0.5f : 0.6f);
   EXPECT_THAT(compare({}).output_tail, HasSubstr("half floats cannot hold this peak"));
 }
 

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
   const TemporaryDirectory directory;
-  // What runs us may have given us a namespace without a /proc of its own.
+  // The caller may have given us a namespace without a /proc of its own.
   const auto here =
       run_shell("read process rest < /proc/self/stat; [ $process = $$ ]", directory.path());
   const auto usual = run_shell("\"$LOBELIA\" farm doctor", directory.path());
@@ -53,19 +53,6 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));
 }
 
-TEST(FarmCommand, PublishesTheGalleryThatItIsAskedFor) {
-  const TemporaryDirectory directory;
-  write_small_grid(directory.path());
-  const auto result =
-      run_lobelia({"farm", "grid.xml", "-o", "out", "-q", "--gallery", "site"}, directory.path());
-  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-  EXPECT_THAT(result.output_tail, HasSubstr("gallery: site/index.html"));
-  EXPECT_TRUE(std::filesystem::exists(directory.path() / "site/cells/n16/index.html"));
-  EXPECT_TRUE(
-      std::filesystem::exists(directory.path() / "site/cells/n16/analytic.map.flip.ldr.js"));
-  EXPECT_FALSE(std::filesystem::exists(directory.path() / "out/index.html"));
-}
-
 TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());
@@ -99,7 +86,7 @@ TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   expect_found("changed", "cell.json is not the record that the farm wrote");
 }
 
-TEST(FarmCommand, WithNoiseHasVerdictsThatItsGalleryFindsAgain) {
+TEST(FarmCommand, GivesNoisyCellsTheVerdictsThatItsGalleryFindsAgain) {
   const TemporaryDirectory directory;
   std::filesystem::create_symlink(kScenes + "effects", directory.path() / "effects");
   write_file(directory.path() / "grid.xml",

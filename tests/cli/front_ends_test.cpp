@@ -26,7 +26,7 @@ using Record = nlohmann::json;
 
 constexpr int kPairs = 200;
 
-/// What a front end said: a record, or why there is none.
+/// A front end's answer: a record, or why there is none.
 struct Answer {
   Record record;
   std::string error;
@@ -62,7 +62,7 @@ class FrontEnds : public ::testing::Test {
     return {answer.error.empty() ? Record::parse(answer.record) : Record(), answer.error};
   }
 #ifdef LOBELIA_PYTHON_PROGRAM
-  /// Of all pairs, in one process.
+  /// Answers for all pairs, from one process.
   std::vector<Record> python() {
     Record list = Record::array();
     for (const MadePair& pair : pairs_)

@@ -196,7 +196,7 @@ TEST(HostilePictures, EndAProfileWithOneLineOrAreProfiled) {
   });
 }
 
-TEST(HostilePictures, AsASkyEndTheRenderingWithOneLineOrAreRendered) {
+TEST(HostilePictures, EndARenderingWithOneLineOrAreRenderedAsASky) {
   const TemporaryDirectory directory;
   const std::string scene = read_file(kScenes + "effects/environment_map.xml", 1 << 20);
   expect_done_or_one_line(some(Corpus(20), 67), 3, [&](const Sample& picture) {
@@ -211,7 +211,7 @@ TEST(HostilePictures, AsASkyEndTheRenderingWithOneLineOrAreRendered) {
   });
 }
 
-TEST(HostilePictures, OfAnEngineAreThatEnginesFailure) {
+TEST(HostilePictures, AreTheFailureOfTheEngineThatMadeThem) {
   const TemporaryDirectory directory;
   const fs::path engine = directory.path() / "engine";
   write_file(

@@ -24,7 +24,7 @@ void render_area_light(const TemporaryDirectory& directory, const std::string& o
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
 }
 
-TEST(CompareWithNoise, OfHalvesExitsWith0ForSame1ForDifferentAnd6ForUndecided) {
+TEST(CompareWithNoise, ExitsWith0ForSame1ForDifferentAnd6ForUndecided) {
   const TemporaryDirectory directory;
   for (const char* seed : {"1", "2", "3", "4"})
     render_area_light(directory, std::string("half") + seed + ".exr",

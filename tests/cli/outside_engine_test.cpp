@@ -14,10 +14,8 @@ namespace lobelia {
 namespace {
 
 using testing::AllOf;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 namespace fs = std::filesystem;
 
 class OutsideEngines : public testing::Test {
@@ -172,7 +170,7 @@ TEST_F(OutsideEngines, NoProgramIsGivenAValueThatItCouldTakeForAnOption) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(OutsideEngines, ThatMisbehavesLosesItsOwnCellsAlone) {
+TEST_F(OutsideEngines, LosesOnlyItsOwnCellsWhenItMisbehaves) {
   script("good.sh", "");
   struct Case {
     const char* name;
@@ -266,7 +264,7 @@ TEST_F(OutsideEngines, SaysWhichScenesItCannotShow) {
               HasSubstr("calls for"));
 }
 
-TEST_F(OutsideEngines, OfPicturesShowsThoseThatAreThereAndMissesTheOthers) {
+TEST_F(OutsideEngines, ShowsPicturesThatAreThereAndMissesTheOthers) {
   fs::create_directory(path("renders"));
   ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "--width", "32", "--height", "32",
                          "--exponent", "16", "-o", "renders/studio_16.exr"},
@@ -306,15 +304,6 @@ TEST_F(OutsideEngines, APictureOutsideOfTheGridsFolderIsReadOnlyWithLeave) {
   EXPECT_THAT(images("n16"), ElementsAre("lobelia", "studio"));
 }
 
-TEST_F(OutsideEngines, AHugePictureFileFailsItsCellAtOnce) {
-  write_file(path("huge.exr"), "");
-  fs::resize_file(path("huge.exr"), std::uintmax_t{1} << 40);
-  grid("<pictures name=\"studio\" files=\"huge.exr\"/>");
-  EXPECT_EQ(farm({}).exit_code, 4);
-  EXPECT_THAT(cell()["problems"][0]["message"].get<std::string>(),
-              HasSubstr("the file has 1099511627776 bytes; at most 8589934592 are read"));
-}
-
 TEST_F(OutsideEngines, MayBeTheReferenceWithoutOurPicture) {
   script("one.sh", "");
   script("two.sh", "");
@@ -350,7 +339,7 @@ TEST_F(OutsideEngines, IsListedWithItsVersionAndState) {
                                         HasSubstr("no program 'no_such_program'")));
 }
 
-TEST_F(OutsideEngines, OfAnEngineFileIsSharedByGrids) {
+TEST_F(OutsideEngines, IsSharedByGridsThroughAnEngineFile) {
   script("mine.sh", "");
   fs::create_directory(path("engines"));
   fs::rename(path("mine.sh"), path("engines/mine.sh"));
@@ -360,7 +349,7 @@ TEST_F(OutsideEngines, OfAnEngineFileIsSharedByGrids) {
   EXPECT_THAT(images(), ElementsAre("lobelia", "mine"));
 }
 
-TEST_F(OutsideEngines, ThatIsDescribedWronglyIsAnErrorWithItsLine) {
+TEST_F(OutsideEngines, IsRefusedWithTheLineOfAWrongDescription) {
   const std::pair<const char*, const char*> cases[] = {
       {"<engine name=\"povray\" command=\"x {out}\"/>", "the name 'povray' is taken"},
       {"<engine name=\"profile\" command=\"x {out}\"/>", "the name 'profile' is taken"},
@@ -395,7 +384,7 @@ TEST_F(OutsideEngines, ThatIsDescribedWronglyIsAnErrorWithItsLine) {
   EXPECT_THAT(farm().output_tail, HasSubstr("allowed: an engine of this grid"));
 }
 
-TEST_F(OutsideEngines, OfTheTutorialBecomesAColumnByTheCommandsOfItsPage) {
+TEST_F(OutsideEngines, BecomesAColumnByTheCommandsOfTheTutorial) {
   if (find_program("python3").empty()) {
     ASSERT_FALSE(std::getenv("LOBELIA_REQUIRE_ENGINES")) << "no python3";
     GTEST_SKIP() << "no python3";

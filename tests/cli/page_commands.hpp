@@ -8,7 +8,7 @@
 
 namespace lobelia {
 
-/// Of the whole page, or of what begins with the line `from`.
+/// Commands of the whole page, or from the line `from` on.
 inline std::string page_commands(const std::string& page, const std::string& from = "") {
   const std::string text =
       read_file(std::filesystem::path(LOBELIA_SOURCE_DIR) / page, std::size_t{1} << 20);

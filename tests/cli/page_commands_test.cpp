@@ -58,11 +58,5 @@ INSTANTIATE_TEST_SUITE_P(Pages, PageCommandsOf, testing::ValuesIn(pages_with_com
                            return name;
                          });
 
-TEST(PageCommands, ThatFailAreFound) {
-  const TemporaryDirectory directory;
-  EXPECT_NE(run_commands("lobelia render none.xml -o x.exr\ntrue\n", directory.path()).exit_code,
-            0);
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -31,14 +31,6 @@ TEST(RenderCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndGoesOn) 
     EXPECT_THAT(render(exponent, "paper").output_tail, testing::Not(HasSubstr("warning")));
 }
 
-TEST(RenderCommand, GivesTheSameFileByteForByteWhateverThreadsAndPlace) {
-  const TemporaryDirectory a, b;
-  const std::string scene = kScenes + "two_spheres.xml";
-  ASSERT_EQ(run_lobelia({"render", scene, "-o", "x.exr", "--threads", "1"}, a.path()).exit_code, 0);
-  ASSERT_EQ(run_lobelia({"render", scene, "-o", "y.exr", "--threads", "4"}, b.path()).exit_code, 0);
-  EXPECT_EQ(bytes(a.path() / "x.exr"), bytes(b.path() / "y.exr"));
-}
-
 TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
   const TemporaryDirectory directory;
   ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "-o", "x.exr", "--model",
@@ -55,7 +47,7 @@ TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
   EXPECT_EQ(files_in(directory.path()), 2u);
 }
 
-TEST(RenderCommand, OnAFullDiskKeepsTheOldPictureAndLeavesNothingElse) {
+TEST(RenderCommand, KeepsTheOldPictureAndNothingElseOnAFullDisk) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "x.exr", "old");
   // A limit of 8 blocks of 512 bytes stands in for the disk.
@@ -135,7 +127,7 @@ TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
 }
 
-TEST(RenderCommand, WithoutModulesIsStillHelpful) {
+TEST(RenderCommand, NamesTheMissingModuleAndRendersWithoutIt) {
   // They are loaded only when they are needed: help, plans and EXRs need none.
   const TemporaryDirectory directory;
   const auto result = run_shell(

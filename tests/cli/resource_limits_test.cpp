@@ -86,7 +86,7 @@ class ResourceLimits : public ::testing::Test {
   int done_ = 0, refused_ = 0;
 };
 
-TEST_F(ResourceLimits, OfMemoryEndInWorkOrASentence) {
+TEST_F(ResourceLimits, OnMemoryEndInWorkOrASentence) {
   if (kTakesTerabytes) GTEST_SKIP() << "a sanitizer takes more address space than any limit";
   for (const int megabytes :
        {50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 600, 800, 1000, 1500, 2000})
@@ -97,14 +97,14 @@ TEST_F(ResourceLimits, OfMemoryEndInWorkOrASentence) {
   EXPECT_GT(refused_, 5);
 }
 
-TEST_F(ResourceLimits, OfThreadsEndInWorkOrASentence) {
+TEST_F(ResourceLimits, OnThreadsEndInWorkOrASentence) {
   for (const int threads : {0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24})
     expect_work_or_a_sentence("export " + with_threads(threads));
   EXPECT_GT(done_, 30) << "only pictures and thumbnails need more than the first";
   EXPECT_GT(refused_, 0) << "the limit holds";
 }
 
-TEST_F(ResourceLimits, OfThreadsDoNotKeepASmallPictureFromBeingRendered) {
+TEST_F(ResourceLimits, OnThreadsLetASmallPictureBeRendered) {
   for (const std::string more : {"", "--png c.png", "--accuracy de2000=1", "--accuracy 1e-3"}) {
     const auto small = run_shell(
         with_threads(1) +
@@ -118,14 +118,14 @@ TEST_F(ResourceLimits, OfThreadsDoNotKeepASmallPictureFromBeingRendered) {
   }
 }
 
-TEST_F(ResourceLimits, OfOpenFilesEndInWorkOrASentence) {
+TEST_F(ResourceLimits, OnOpenFilesEndInWorkOrASentence) {
   for (const int files : {4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64})
     expect_work_or_a_sentence("ulimit -n " + std::to_string(files));
   EXPECT_GT(done_, 10);
   EXPECT_GT(refused_, 3);
 }
 
-TEST_F(ResourceLimits, OfAFilesSizeAreAnErrorOfWriting) {
+TEST_F(ResourceLimits, OnFileSizeAreAnErrorOfWriting) {
   for (const int blocks : {0, 1, 4})
     expect_work_or_a_sentence("ulimit -f " + std::to_string(blocks));
   EXPECT_GT(refused_, 3);

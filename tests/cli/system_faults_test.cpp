@@ -28,7 +28,7 @@ class SystemFaults : public ::testing::Test {
                          const std::string& arguments) const {
     const fs::path library = path("failing_calls.so");  // LD_PRELOAD takes paths apart at blanks
     if (!fs::exists(library)) fs::create_symlink(LOBELIA_FAILING_CALLS, library);
-    // What it cannot remove stays in the test's directory.
+    // A file that it cannot remove stays in the test's directory.
     return run("TMPDIR=\"$PWD/tmp\" FAIL_CALL=" + call + " FAIL_ERRNO=" + std::to_string(error) +
                " FAIL_PATH='" + at + "' ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" +
                library.string() + " \"$LOBELIA\" " + arguments + " > /dev/null");
@@ -52,7 +52,7 @@ TEST_F(SystemFaults, AreSaidInOneLineWithThePath) {
             "a.exr: cannot read: Input/output error"},
            {"getcwd", EIO, "", "farm grid.xml -q -o farm",
             "grid.xml: cannot tell where it is: Input/output error"},
-           {"readdir", EIO, "", "gallery publish run -o site.zip",
+           {"readdir", EIO, "", "gallery publish run -o site.html",
             "cannot be listed: Input/output error"},
            {"poll", EIO, "", "compare a.png a.png", "poll: Input/output error"},
            // The reader was waited for without end.

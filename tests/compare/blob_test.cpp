@@ -24,7 +24,7 @@ BlobProfile profile_of(const NamedImages& images) {
   return measure_blobs(images, {}).highlights.at(0);
 }
 
-TEST(Blob, OfATiltedGaussianHasItsFigures) {
+TEST(Blob, HasTheFiguresOfATiltedGaussian) {
   const BlobFigures blob = first_of(tilted());
   EXPECT_EQ(blob.why_not + blob.remark, "");
   EXPECT_EQ(blob.peak.found, PeakFound::kFitted);
@@ -81,7 +81,7 @@ TEST(Blob, PutsADifferenceIntoTheZoneOfTheReference) {
   }
 }
 
-TEST(Blob, OfAPictureWithoutOneSaysWhy) {
+TEST(Blob, SaysWhyAPictureHasNone) {
   for (const int side : {1, 2, 40})
     for (const double value : {0.0, 1.0, -2.0}) {
       const BlobFigures blob = first_of(picture(side, side, [&](double, double) { return value; }));
@@ -103,7 +103,7 @@ TEST(Blob, OfAPictureWithoutOneSaysWhy) {
   EXPECT_TRUE(against.blobs[1].why_not.starts_with("nothing stands out"));
 }
 
-TEST(Blob, OfASinglePixelIsNoneAndACutOneIsDoubted) {
+TEST(Blob, IsNoneOnASinglePixelAndDoubtedWhereItIsCut) {
   Image spike = picture(60, 60, [](double, double) { return 0.1; });
   spike.pixel(20, 30)[1] = 9;
   EXPECT_EQ(first_of(spike).why_not,

@@ -152,7 +152,7 @@ double plain_ciede2000(Rgb one, Rgb other) {
   return std::sqrt(dl * dl + dc * dc + dhue * dhue + rotation * dc * dhue);
 }
 
-TEST(Ciede2000, OfEachPixelIsThePlainFormulaWithinItsBound) {
+TEST(Ciede2000, IsForEachPixelThePlainFormulaWithinItsBound) {
   const int width = 203, height = 97;
   const Image a = fixtures::noise(width, height, 1, 1.1f);
   Image far = fixtures::noise(width, height, 2, 1.1f), near = a, dark = a, dim = a;

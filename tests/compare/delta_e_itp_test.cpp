@@ -93,7 +93,7 @@ Itp plain_itp(Rgb c) {
           (17933 * l - 17390 * m - 543 * s) / 4096};
 }
 
-TEST(DeltaEItp, OfEachPixelIsThePlainFormulasWithinItsBound) {
+TEST(DeltaEItp, IsForEachPixelThePlainFormulasWithinItsBound) {
   const int width = 203, height = 97;
   const Image a = fixtures::noise(width, height, 1, 1.1f);
   Image b = fixtures::noise(width, height, 2, 1.1f);

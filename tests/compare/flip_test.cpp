@@ -180,7 +180,7 @@ TEST(ToneCurve, IsItsFormulaInDoubleToSixDigits) {
     }
 }
 
-TEST(HdrExposures, OfEachCurveShowTheBrightestAndTheMedianAtEightyFivePercent) {
+TEST(HdrExposures, ShowTheBrightestAndTheMedianAt85PerCentOfEachCurve) {
   const Image reference = fixtures::noise(31, 31, 3, 5.0f);
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.values().size(); i += 3) {

@@ -87,8 +87,8 @@ void expect_coverage(bool given) {
   }
 }
 
-TEST(HighlightErrors, FromTheGivenNoiseHoldTheTruthAsOftenAsTheyShould) { expect_coverage(true); }
-TEST(HighlightErrors, FromTheScatterHoldTheTruthAsOftenAsTheyShould) { expect_coverage(false); }
+TEST(HighlightErrors, HoldTheTruthAsOftenAsTheyShouldFromGivenNoise) { expect_coverage(true); }
+TEST(HighlightErrors, HoldTheTruthAsOftenAsTheyShouldFromScatter) { expect_coverage(false); }
 
 TEST(HighlightErrors, GrowWithTheTextureBeneath) {
   const Spot spot{60.3, 55.1, 2, 9, 7};
@@ -108,7 +108,7 @@ TEST(HighlightErrors, GrowWithTheTextureBeneath) {
   EXPECT_LT(coarse.peak, 0.2);
 }
 
-TEST(HighlightErrors, OfNoiseThatPixelsShareAreTheWorse) {
+TEST(HighlightErrors, AreTheWorseForNoiseThatPixelsShare) {
   const Spot spot{60.3, 55.1, 2, 9, 7};
   const Image image = picture(120, 110, [&](double x, double y) { return 0.1 + spot(x, y); });
   Image error(120, 110);

@@ -91,7 +91,7 @@ double loose_limit(const MetricOutput& output, double peak) {
   }
 }
 
-TEST(Highlight, WithAnySingleLimitABlackAShiftedAndADimmerHighlightDiffer) {
+TEST(Highlight, DiffersUnderAnySingleLimitIfBlackShiftedOrDimmer) {
   for (const double exponent : some_of(std::vector{100.0, 1000.0, 2e4})) {
     const Image reference = picture_of(exponent);
     const Image black(reference.width(), reference.height());
@@ -119,7 +119,7 @@ TEST(Highlight, WithAnySingleLimitABlackAShiftedAndADimmerHighlightDiffer) {
   }
 }
 
-TEST(Highlight, OfABlackPictureDiffersWithTheLimitsThatPeopleUseAndTheWarningSaysWhatTheyMiss) {
+TEST(Highlight, DiffersFromBlackOrAWarningSaysWhatTheLimitsMiss) {
   const Image reference = picture_of(2e4);
   const Image black(reference.width(), reference.height());
   ComparisonOptions options = as_by_default();
@@ -205,7 +205,7 @@ TEST(RegionOfAHighlight, HasTheFiguresOfItsPixelsAndFlipOfThoseAroundThem) {
               1e-9);
 }
 
-TEST(Region, OfEveryPixelHasTheFiguresOfTheWholePictureAndOutsideIsTheRest) {
+TEST(Region, HasTheFiguresOfTheWholePictureIfItIsAllOfIt) {
   const Image a = fixtures::highlight(64, 48, 4, 1.0), b = fixtures::highlight(64, 48, 5, 0.9);
   ComparisonOptions options;
   options.mask.assign(a.pixel_count(), 1);
@@ -247,14 +247,14 @@ TEST(HighlightFigures, AreThoseOfTheChangeThatWasMade) {
             "a's highlight is as wide and as bright as b's, its energy equal");
 }
 
-TEST(HighlightFigures, OfAPictureThatIsBrightThroughoutSayHowMuchOfItIsHighlight) {
+TEST(HighlightFigures, SayHowMuchOfABrightPictureIsHighlight) {
   const Image grey = fixtures::flat(40, 40, 0.5f, 0.5f, 0.5f),
               brighter = fixtures::flat(40, 40, 0.55f, 0.55f, 0.55f);
   EXPECT_THAT(highlight_sentence(compare(brighter, grey, as_by_default())),
               HasSubstr("; 100 % of the picture count as highlight"));
 }
 
-TEST(HighlightFigures, OfAFireflyDoNotHideTheHighlight) {
+TEST(HighlightFigures, AreNotHiddenByAFirefly) {
   const Image reference = picture_of(100);
   Image firefly = scaled(reference, 0.9f);
   firefly.pixel(3, 3)[0] = 1e6f;

@@ -148,7 +148,7 @@ TEST(HighlightTruth, LiesWithinTheErrorBarOfAClippedHighlight) {
 }
 TEST(HighlightTruth, LiesWithinTheErrorBarOnATexture) { expect_coverage({.textured = true}, 5); }
 
-TEST(HighlightTruth, OfGgxIsNeverTakenForACosineNorTheOtherWayRound) {
+TEST(HighlightTruth, IsNeverTakenForACosineIfItIsGgxNorTheOtherWayRound) {
   std::mt19937 random(6);
   for (int k = 0; k < 10 * more_samples(); ++k)
     for (const std::string family : {"phong", "blinn_phong", "ggx"}) {

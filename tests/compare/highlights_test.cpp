@@ -38,7 +38,7 @@ TEST(Highlights, BelowTheLeastShareAreLeftOut) {
   EXPECT_EQ(measured(picture(200, 170, three_spots), options).highlights.size(), 2u);
 }
 
-TEST(Highlights, OnALitObjectAreFoundAndNotTheObject) {
+TEST(Highlights, AreFoundOnALitObjectAndNotTheObject) {
   // A disc lit from one side, with a weaker highlight than its own brightness.
   const Spot spot{110.4, 80.3, 0.3, 6, 6};
   const Image image = picture(200, 170, [&](double x, double y) {
@@ -52,7 +52,7 @@ TEST(Highlights, OnALitObjectAreFoundAndNotTheObject) {
   EXPECT_NEAR(blob.major_half_width, 6, 0.15);
 }
 
-TEST(Highlights, OutsideOfThePictureAreAnError) {
+TEST(Highlights, AreAnErrorOutsideOfThePicture) {
   const Image image(20, 10);
   for (const FilmPoint at : {FilmPoint{-1, 5}, {5, 11}, {21, 5}}) {
     BlobOptions options;
@@ -70,7 +70,7 @@ TEST(Highlights, OutsideOfThePictureAreAnError) {
   }
 }
 
-TEST(Highlights, OfTwoPicturesAreMatchedByPlaceAndTheRestIsNamed) {
+TEST(Highlights, AreMatchedByPlaceAndTheRestIsNamed) {
   const Image a = picture(200, 170, three_spots);
   // The brightest is dimmed, so that the order changes; one is gone, and one is new.
   Spot moved = kThree[1], other{30.2, 140.4, 2.5, 6, 6};
@@ -129,7 +129,7 @@ TEST(Highlights, HaveTheColourOfWhatLiesOverTheBackground) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(blob.colour[c], light[c], 0.005);
 }
 
-TEST(Highlights, ThatAreClippedAreFittedFromTheirFlank) {
+TEST(Highlights, AreFittedFromTheirFlankIfClipped) {
   for (const bool ggx : {false, true})
     for (const double clip : {0.7, 0.4}) {
       const Spot spot{100.3, 80.8, 3, 14, 9, 0.4, ggx};
@@ -148,7 +148,7 @@ TEST(Highlights, ThatAreClippedAreFittedFromTheirFlank) {
     }
 }
 
-TEST(Highlights, ThatAreClippedInOneChannelSaySo) {
+TEST(Highlights, SayThatOneChannelIsClipped) {
   const Spot spot{100.3, 80.8, 3, 14, 9};
   Image image = picture(200, 170, spot, {1, 0.6, 0.4});
   for (std::size_t i = 0; i < image.values().size(); i += 3)
@@ -172,7 +172,7 @@ TEST(Highlights, SayHowTheyFallOff) {
   }
 }
 
-TEST(Highlights, OfAPictureWithThousandsAreTheBrightestAndTheRestIsCounted) {
+TEST(Highlights, AreTheBrightestOfThousandsAndTheRestIsCounted) {
   constexpr int kSide = 1136, kApart = 8;  // 142 x 142 of them
   const BlobProfiles all = measured(picture(kSide, kSide, [](double x, double y) {
     const double dx = std::fmod(x, kApart) - 3.6, dy = std::fmod(y, kApart) - 3.6;

@@ -146,7 +146,7 @@ TEST(LobeFamilies, CannotBeToldApartInNoise) {
   EXPECT_GT(family(FittedFamily::kGgx), kToldApart) << "its tail is another";
 }
 
-TEST(LobeFamilies, WithSharedNoiseHaveTheWorseError) {
+TEST(LobeFamilies, HaveTheWorseErrorWithSharedNoise) {
   std::mt19937 random(3);
   const std::vector<SeenLobe> pixels = noisy(blinn_phong(121), 0.02, true, random);
   EXPECT_GT(explain_highlight(pixels, true)[0].fit.standard_error,

@@ -85,7 +85,7 @@ TEST(CosineFit, IntervalHoldsTheTruthAsOftenAsClaimedUnderEvenAndProportionalNoi
   }
 }
 
-TEST(CosineFit, OfAnotherLobeSaysWhichCosineItLooksLikeAndHowFarItIsFromThat) {
+TEST(CosineFit, SaysHowFarAnotherLobeIsFromItsCosine) {
   const auto cs16 = [](double angle) {
     const double s = 2 * std::pow(std::sin(angle / 2), 2);
     return std::pow(std::max(0.0, 1 - 256 * s / 16), 16);

@@ -117,7 +117,7 @@ TEST(DifferenceMaps, RelativeIsOfTheReferenceAndLargestWhereThatHasNothing) {
   EXPECT_THAT(map, ElementsAre(0.5f, std::numeric_limits<float>::max(), 1.5f));
 }
 
-TEST(DifferenceMaps, OfDifferentSizesAreRefused) {
+TEST(DifferenceMaps, AreRefusedForDifferentSizes) {
   EXPECT_THROW(measure_difference_map(*find_difference_map("abs"), Image(2, 3), Image(3, 2), {}),
                Error);
 }
@@ -142,7 +142,7 @@ TEST(ColourMaps, HaveTheColoursThatMatplotlibPublished) {
   }
 }
 
-TEST(ColourMaps, OfSignedValuesAreBlueWhiteAndRed) {
+TEST(ColourMaps, AreBlueWhiteAndRedForSignedValues) {
   const DisplayImage picture =
       colour_picture(std::vector<float>{-2, 0, 2, 5}, 4, 1, 2, kSignedColourMap);
   EXPECT_THAT(pixel(picture, 0), ElementsAre(0, 0, 255));

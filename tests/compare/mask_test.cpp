@@ -33,7 +33,7 @@ bool is_in_polygon(const std::vector<std::array<double, 2>>& corners, double x, 
   return in;
 }
 
-TEST(MaskShapes, OfAPolygonThePixelsAreThoseWithTheirCentreInsideByTheEvenOddRule) {
+TEST(MaskShapes, HaveThePixelsWithCentresInsideAPolygonByTheEvenOddRule) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> place(-5, 45);
   for (int round = 0; round < 200; ++round) {
@@ -60,7 +60,7 @@ TEST(MaskShapes, AddUpAndMayReachBeyondThePicture) {
   EXPECT_EQ(std::ranges::count(inside({"rect:7,7,2,2"}, 5, 4), 1), 0);
 }
 
-TEST(MaskShapes, ThatAreMalformedAreRefusedInOneSentence) {
+TEST(MaskShapes, AreRefusedInOneSentenceIfMalformed) {
   std::string corners;
   for (int i = 0; i <= kMaxPolygonCorners; ++i) corners += fmt::format(" {},{}", i, i * i % 7);
   for (const std::string& text :

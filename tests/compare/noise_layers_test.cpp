@@ -96,7 +96,7 @@ double standard_error(const Moments& moments, std::size_t i) {
   return std::sqrt((moments.square[i] - moments.mean[i] * moments.mean[i]) / (n - 1));
 }
 
-TEST_F(NoiseLayers, OfMitsubasMomentsAreTheStandardErrorsOfTheMean) {
+TEST_F(NoiseLayers, GiveStandardErrorsOfTheMeanFromMitsubasMoments) {
   const Moments moments(1, 64);
   const auto path = mitsuba("a.exr", moments);
   const PictureNoise noise = noise_of_layers(path, read_picture(path, "path"), {.samples = 64});
@@ -111,7 +111,7 @@ TEST_F(NoiseLayers, OfMitsubasMomentsAreTheStandardErrorsOfTheMean) {
   EXPECT_THAT(refusal(path, "", {.samples = 64}, ExitCode::kInput), HasSubstr("--layer 'path'"));
 }
 
-TEST_F(NoiseLayers, OfHalfFloatsAreNeverTooSmallByTheirRounding) {
+TEST_F(NoiseLayers, AreNeverTooSmallByTheRoundingOfHalfFloats) {
   const Moments moments(2, 16);
   const auto path = mitsuba("half.exr", moments, Imf::HALF);
   const PictureNoise noise = noise_of_layers(path, read_picture(path, "path"), {.samples = 16});
@@ -140,7 +140,7 @@ int false_differences(int runs, const std::string& layer, Write write) {
   return different;
 }
 
-TEST_F(NoiseLayers, OfMitsubaAreOfTheTrueSize) {
+TEST_F(NoiseLayers, HaveTheTrueSizeFromMitsuba) {
   // 1.96 standard errors hold 95 % of the differences of two pictures of one expectation, whatever the sampler's luck.
   int beyond = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 8; seed += 2) {
@@ -160,7 +160,7 @@ TEST_F(NoiseLayers, OfMitsubaAreOfTheTrueSize) {
   EXPECT_NEAR(beyond / double(all), 0.05, 0.011);
 }
 
-TEST_F(NoiseLayers, OfMitsubaGiveNoMoreFalseDifferencesThanNominal) {
+TEST_F(NoiseLayers, RaiseNoMoreFalseDifferencesThanNominalFromMitsuba) {
   // At a significance of 0.1 thirteen of a thousand pairs were called different: the z test takes cautious errors, and the
   // brightness changes from pixel to pixel here.
   const int different = false_differences(40, "path", [&](const char* name, std::uint64_t seed) {
@@ -188,7 +188,7 @@ std::vector<ExrChannel> pbrt_channels(const Moments& moments) {
   return channels;
 }
 
-TEST_F(NoiseLayers, OfPbrtBoundTheErrorsOfRgbAndKnowTheSamples) {
+TEST_F(NoiseLayers, BoundTheErrorsOfRgbAndKnowTheSamplesFromPbrt) {
   const Moments moments(3, 64);
   const auto path = write("a.exr", pbrt_channels(moments), {}, 64);
   const Picture picture = read_picture(path, "");
@@ -212,14 +212,14 @@ TEST_F(NoiseLayers, OfPbrtBoundTheErrorsOfRgbAndKnowTheSamples) {
     }
 }
 
-TEST_F(NoiseLayers, OfPbrtGiveNoMoreFalseDifferencesThanNominal) {
+TEST_F(NoiseLayers, RaiseNoMoreFalseDifferencesThanNominalFromPbrt) {
   const int different = false_differences(40, "", [&](const char* name, std::uint64_t seed) {
     return write(name, pbrt_channels(Moments(seed, 64)), {}, 64);
   });
   EXPECT_LE(different, 4);
 }
 
-TEST_F(NoiseLayers, OfOldCyclesAreItsVariancePassAndItsSamples) {
+TEST_F(NoiseLayers, TakeVariancePassAndSamplesFromOldCycles) {
   const Moments moments(4, 32);
   std::vector<ExrChannel> channels;
   add(channels, "View.Combined", "RGB", [&](std::size_t i) { return moments.mean[i]; });
@@ -244,7 +244,7 @@ TEST_F(NoiseLayers, CalledStandardErrorAreWhatTheySay) {
   EXPECT_EQ(noise.freedom, 1e6);
 }
 
-TEST_F(NoiseLayers, ThatAreNoneOrOtherThingsAreRefusedWithTheReason) {
+TEST_F(NoiseLayers, AreRefusedWithTheReasonIfTheyAreOtherThings) {
   std::vector<ExrChannel> channels;
   add(channels, "View.Combined", "RGB", [](std::size_t) { return 1; });
   const auto plain = write("a.exr", channels);

@@ -27,7 +27,7 @@ Comparison compare_noisy(double brighter, float error, ComparisonOptions options
   return compare(a, b, options);
 }
 
-TEST(NoisyVerdict, OfALimitIsSameOrDifferentWhereTheWholeErrorBarSaysSo) {
+TEST(NoisyVerdict, IsSameOrDifferentWhereTheWholeErrorBarSaysSo) {
   ComparisonOptions options;
   options.limits = {{"rmse", 0.01}};
   EXPECT_EQ(compare_noisy(0, 0.001f, options).verdict, Verdict::kSame);
@@ -46,7 +46,7 @@ TEST(NoisyVerdict, OfALimitIsSameOrDifferentWhereTheWholeErrorBarSaysSo) {
   EXPECT_EQ(compare_noisy(0.3, 0.001f, options).verdict, Verdict::kDifferent);
 }
 
-TEST(NoisyVerdict, ByNothingAskedIsDifferentWhereAnythingIsFoundAndNeverSameInStrongNoise) {
+TEST(NoisyVerdict, IsDifferentWithoutLimitsWhereAnythingIsFound) {
   EXPECT_EQ(compare_noisy(0, 2e-4f, {}).verdict, Verdict::kSame);
   const Comparison found = compare_noisy(0.003, 2e-4f, {});
   EXPECT_EQ(found.verdict, Verdict::kDifferent) << "within every limit, but no chance";
@@ -54,7 +54,7 @@ TEST(NoisyVerdict, ByNothingAskedIsDifferentWhereAnythingIsFoundAndNeverSameInSt
   EXPECT_EQ(compare_noisy(0.003, 1, {}).verdict, Verdict::kUndecided);
 }
 
-TEST(NoisyVerdict, ByAToleranceSaysTheSameOnlyOfPixelsThatSurelyLieWithinIt) {
+TEST(NoisyVerdict, IsSameByAToleranceOnlyIfPixelsSurelyLieWithinIt) {
   ComparisonOptions options;
   options.tolerance = Tolerance{0, 0.01, 0};
   EXPECT_EQ(compare_noisy(0, 1e-3f, options).verdict, Verdict::kSame);
@@ -81,7 +81,7 @@ TEST(NoisyVerdict, IsNotTurnedIntoSameByMoreNoise) {
     }
 }
 
-TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
+TEST(NoisyVerdict, IsStillNonFiniteForAPictureThatIsNotFinite) {
   auto [a, b] = pair(0, 0);
   a.pixel(1, 1)[0] = std::numeric_limits<float>::quiet_NaN();
   ComparisonOptions options;
@@ -95,7 +95,7 @@ TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
   EXPECT_EQ(compare(mean_of_replicates(halves, false).image, b, options).nonfinite.a, 1);
 }
 
-TEST(NoisyVerdict, OfALimitThatCouldNotBeMeasuredIsUndecided) {
+TEST(NoisyVerdict, IsUndecidedOnALimitThatCouldNotBeMeasured) {
   ComparisonOptions options;
   options.limits = {{"ssim", 0.5}};
   options.noise = NoiseOptions{.a = fixtures::even_noise(4, 4, 1)};

@@ -69,7 +69,7 @@ TEST(Peak, IsHeldByManyPixelsWhereThereIsNoise) {
   EXPECT_LT(std::sqrt(squares / kPictures), 0.15);
 }
 
-TEST(Peak, OfAClippedHighlightIsTheMiddleOfItsPlateau) {
+TEST(Peak, IsTheMiddleOfThePlateauOfAClippedHighlight) {
   const SphereLobe lobe{100, 120.3, 119.6, 0, 64};
   for (const double clip : {0.9, 0.5, 0.05}) {
     const Peak peak = locate_peak(field_of(
@@ -81,7 +81,7 @@ TEST(Peak, OfAClippedHighlightIsTheMiddleOfItsPlateau) {
   }
 }
 
-TEST(Peak, AtTheBorderOrBesideAHoleIsTheBrightestPixel) {
+TEST(Peak, IsTheBrightestPixelAtTheBorderOrBesideAHole) {
   const Peak border = locate_peak(field_of(20, 20, [](double x, double) { return x; }));
   EXPECT_EQ(border.found, PeakFound::kPlateau) << "a whole column of it";
   const Peak corner = locate_peak(field_of(20, 20, [](double x, double y) { return x + 2 * y; }));
@@ -96,7 +96,7 @@ TEST(Peak, AtTheBorderOrBesideAHoleIsTheBrightestPixel) {
   EXPECT_EQ(cut.place.x, 114.5);
 }
 
-TEST(Peak, OfOneBrightPixelIsThatPixel) {
+TEST(Peak, IsTheOneBrightPixel) {
   const Peak peak = locate_peak(
       field_of(9, 9, [](double x, double y) { return x == 3.5 && y == 4.5 ? 7.0 : 0.0; }));
   EXPECT_EQ(peak.found, PeakFound::kPixel);
@@ -106,7 +106,7 @@ TEST(Peak, OfOneBrightPixelIsThatPixel) {
   EXPECT_EQ(peak.pixel, 4u * 9 + 3);
 }
 
-TEST(Peak, OfNothingIsNone) {
+TEST(Peak, IsNoneInABlackPicture) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double value : {0.0, -1.0, std::nan(""), infinity, -infinity}) {
     const Peak peak = locate_peak(field_of(3, 3, [&](double, double) { return value; }));

@@ -32,13 +32,13 @@ Coded random_codes(int width, int height, unsigned seed, const std::vector<std::
   return result;
 }
 
-TEST(CodeValues, OfADecodedEightBitPictureAreItsOwn) {
+TEST(CodeValues, AreItsOwnForADecodedEightBitPicture) {
   const Coded picture = random_codes(64, 64, 1);
   EXPECT_TRUE(std::ranges::equal(code_values(DisplayLight(picture.image, 0)), picture.codes));
   EXPECT_EQ(code_values(DisplayLight(fixtures::flat(1, 1, -1, 0, 9), 0)), (CodeValues{0, 0, 255}));
 }
 
-TEST(CodeValues, OfAnyLightAreThoseOfTheDisplayToHalfAStep) {
+TEST(CodeValues, AreThoseOfTheDisplayToHalfAStep) {
   const Image image = fixtures::noise(64, 64, 3, 1.1f);
   const CodeValues codes = code_values(DisplayLight(image, 0));
   for (std::size_t i = 0; i < codes.size(); ++i) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-TEST(ProfileScene, OfEveryModelHasTheRenderersHighlightOnTheFormula) {
+TEST(ProfileScene, HasTheRenderersHighlightOnTheFormulaForEveryModel) {
   ASSERT_FALSE(models().empty());
   for (const ModelInfo& model : models()) {
     Scene scene = scene_with(model.name, 64);
@@ -104,7 +104,7 @@ TEST(ProfileScene, RefusesWhatTheSceneDoesNotHaveAndScenesWithoutAProfile) {
   }
 }
 
-TEST(ProfileScene, OfOneLightDoesNotSeeTheHighlightOfTheOther) {
+TEST(ProfileScene, DoesNotSeeTheHighlightOfTheOtherLight) {
   Scene alone = scene_with("phong_rdf", 64), both = alone;
   both.lights.push_back(DirectionalLight{normalize({0.6, -0.3, -1}), {7, 7, 7}});
   const Image one = render(alone, RenderOptions{}).image, two = render(both, RenderOptions{}).image;
@@ -171,7 +171,7 @@ TEST(HighlightOfAScene, HasItsPeakWithinAFiftiethOfAPixelOfTheFormulas) {
       }
 }
 
-TEST(HighlightOfAScene, OfEveryModelIsACosineLobeOfItsExponent) {
+TEST(HighlightOfAScene, IsACosineLobeOfItsExponentForEveryModel) {
   for (const ModelInfo& model : models())
     for (const double n : {8.0, 64.0, 512.0}) {
       Scene scene = scene_with(model.name, n);
@@ -253,7 +253,7 @@ TEST(HighlightOfAScene, IsNotShadedByASphereBehindItsLight) {
   EXPECT_GT(record["differences"]["a-analytic"]["epicentre"]["pixels"].get<int>(), 100);
 }
 
-TEST(HighlightOfAScene, ThatIsNotThereSaysWhy) {
+TEST(HighlightOfAScene, SaysWhyItIsNotThere) {
   const Scene good = scene_with("phong_rdf", 64);
   const auto because = [&](auto change) {
     Scene scene = good;
@@ -349,7 +349,7 @@ TEST(HighlightOfAScene, IsNotFittedWhereItLiesElsewhereInThePicture) {
   }
 }
 
-TEST(HighlightOfAScene, OfADullMaterialIsNone) {
+TEST(HighlightOfAScene, IsNoneForADullMaterial) {
   Scene scene = scene_with("phong_rdf", 64);
   scene.materials[0].specular_reflectance = {};
   const Image image = render(scene, RenderOptions{}).image;

@@ -32,7 +32,7 @@ TEST(ComparisonRecord, HasEveryMetricThatNeedsNoAskingAndWhatWasAllowed) {
       (Json{{"relative", 0.5}, {"ofPeak", 0.25}, {"allowedOutliers", 7}, {"onEdgesOnly", false}}));
 }
 
-TEST(ComparisonRecord, OfPicturesWithNoiseSaysHowItWasTakenIntoAccount) {
+TEST(ComparisonRecord, SaysHowNoiseWasTakenIntoAccount) {
   const Image a = fixtures::highlight(48, 48, 10, 1.0), b = fixtures::highlight(48, 48, 10, 1.01);
   ComparisonOptions options;
   options.limits = {{"rmse", 1}, {"drift", 0.003}};

@@ -97,7 +97,7 @@ records::Comparison record_of_files() {
   others.not_compared = {{"Z"}, true, 5, 2};
   others.common = {{}, {"Z"}, {}};
   source.icc_profile = "sRGB";
-  source.gain_map = "applied";
+  source.has_gain_map = true;
   source.chromaticities = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
   const Comparison picture = compare(good, good, {});
   records::Comparison made = comparison_record(picture, "a.exr", "b.exr");
@@ -235,7 +235,7 @@ TEST(BrokenRecords, AreRefusedWhereTheirPlacesAreFinite) {
   EXPECT_THROW(records::parse_record<records::Comparison>(finite.dump(), "a test"), Error);
 }
 
-TEST(BrokenRecords, OfProfilesAreRefused) {
+TEST(BrokenRecords, AreRefusedForProfiles) {
   const Scene scene = scene_with("phong_rdf", 64);
   const Image picture = render(scene, RenderOptions{}).image;
   const Plain good = as_written(profile_scene(scene, 0, 0, {{"a", &picture}}));

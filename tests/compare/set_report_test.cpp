@@ -117,7 +117,7 @@ TEST(SetOutcomes, HaveOneWordAndOneCountInEveryReport) {
     EXPECT_THAT(set_markdown(report), HasSubstr(fmt::format("{} {}", one.count, one.words)));
 }
 
-TEST(SetOutcomes, OfANameWithoutAReferenceFailIfTheyAreToFail) {
+TEST(SetOutcomes, FailForANameWithoutAReferenceIfAsked) {
   SetReport report = set_of({compared("good.exr", 0.5f, 0.5f)});
   report.extra = {"new.exr"};
   for (const bool fails : {false, true}) {

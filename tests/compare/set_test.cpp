@@ -117,7 +117,7 @@ TEST_F(FolderPairing, NamesLinksToFoldersElsewhereAndToNothing) {
       << "links to files are files; one to nothing cannot be read, as its pair will say";
 }
 
-TEST_F(FolderPairing, OfLinksThatMultiplyIsRefusedInsteadOfGoingOnForEver) {
+TEST_F(FolderPairing, RefusesLinksThatMultiply) {
   // 2^40 paths, and no circle.
   fs::path inside = folder_.path() / "a";
   for (int i = 0; i < 40; ++i) {
@@ -134,7 +134,7 @@ TEST_F(FolderPairing, OfLinksThatMultiplyIsRefusedInsteadOfGoingOnForEver) {
   EXPECT_THAT(refusal(few, ExitCode::kInput), HasSubstr("holds over 20000 files"));
 }
 
-TEST_F(FolderPairing, OfAFolderThatIsNotThereSaysWhich) {
+TEST_F(FolderPairing, SaysWhichFolderIsNotThere) {
   PairingChoice nowhere = choice();
   nowhere.given[1] = (folder_.path() / "nowhere").string();
   EXPECT_THAT(refusal(nowhere, ExitCode::kInput), HasSubstr("nowhere: no such file or folder"));
@@ -152,7 +152,7 @@ TEST_F(FolderPairing, GoesAcrossEndingsWhereThereIsNoDoubt) {
   EXPECT_THAT(files(pairing, 0), ::testing::Contains("a/sub/y.EXR"));
 }
 
-TEST_F(FolderPairing, OfThreeFoldersJudgesEachAgainstTheSecond) {
+TEST_F(FolderPairing, JudgesEachOfThreeFoldersAgainstTheSecond) {
   for (const char* file : {"a/x.exr", "b/x.exr", "c/x.exr", "b/y.exr", "c/y.exr"}) put(file);
   PairingChoice three = choice();
   three.given.push_back((folder_.path() / "c").string());
@@ -188,7 +188,7 @@ TEST_F(PatternPairing, FindsAllSetsInOneFolderByTheFieldThatTellsThemApart) {
   EXPECT_EQ(pairing.passed_over, 2u) << "another engine's, and one that the pattern does not fit";
 }
 
-TEST_F(PatternPairing, OfTwoFoldersGoesByTheFieldsAndForgetsWhatIsInEmptyBraces) {
+TEST_F(PatternPairing, PairsTwoFoldersByFieldsAndIgnoresEmptyBraces) {
   for (const char* file : {"a/area/ball.v2.exr", "a/point/ball.v2.exr", "b/area/ball.v1.exr",
                            "b/point/ball.final.exr"})
     put(file);

@@ -82,7 +82,7 @@ LumaPlane shown_luma(const Image& image) {
   return plane;
 }
 
-TEST(Ssim, OfTwoGreysIsThePublishedValue) {
+TEST(Ssim, IsThePublishedValueForTwoGreys) {
   const Comparison comparison = compare(grey_code(64, 64, 128), grey_code(64, 64, 160), {});
   EXPECT_NEAR(comparison.value("ssim"), 0.975614, 5e-7);
   const double x = 128 / 255.0, y = 160 / 255.0;
@@ -131,7 +131,7 @@ TEST(MsSsim, IsLeftOutBelow176Pixels) {
   EXPECT_GT(value(176), 0.9);
 }
 
-TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
+TEST(Luma, IsTheWeightedSumOfTheCodesOfEveryPixel) {
   Image image = fixtures::noise(37, 301, 4, 1.1f);
   // The dark and the bright end of the curve too.
   for (std::size_t i = 0; i < image.values().size(); i += 2) image.values()[i] *= 0.01f;

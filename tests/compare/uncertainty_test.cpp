@@ -67,7 +67,7 @@ TEST(CriticalT, IsTheZOfItsLevelAndNeverLess) {
 
 // ---- noise
 
-TEST(Noise, OfManyReplicatesIsTheStandardErrorOfTheirMean) {
+TEST(Noise, IsTheStandardErrorOfTheMeanOfReplicates) {
   std::vector<Image> replicates;
   for (const float value : {1.0f, 2.0f, 3.0f, 6.0f})
     replicates.push_back(fixtures::flat(3, 2, value, value, value));
@@ -79,7 +79,7 @@ TEST(Noise, OfManyReplicatesIsTheStandardErrorOfTheirMean) {
   EXPECT_EQ(mean.noise.pooled_freedom, 3) << "there is no window in so small a picture";
 }
 
-TEST(Noise, OfFiguresIsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
+TEST(Noise, IsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
   // The mean of the standard deviation of n normal values is 1 - 1 / (4 (n - 1)) of the true one.
   Image error = fixtures::flat(12, 12, 0, 0, 0);
   error.pixel(6, 6)[0] = 1;
@@ -93,7 +93,7 @@ TEST(Noise, OfFiguresIsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
   EXPECT_EQ(pooled.pixel(6, 7)[0], 0);
 }
 
-TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
+TEST(Noise, IsNeverLessThanAValuesOwnIfCautious) {
   for (const NoiseKind kind : fixtures::kNoiseKinds) {
     const Image halves[] = {fixtures::noisy(kind, 3, 8), fixtures::noisy(kind, 4, 8)};
     const Image cautious = mean_of_replicates(halves, false).noise.cautious;
@@ -103,7 +103,7 @@ TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
   }
 }
 
-TEST(Noise, ThatIsCautiousFollowsThinLinesAndEdges) {
+TEST(Noise, FollowsThinLinesAndEdgesIfCautious) {
   // A pixel whose replicates happened to agree, on a noisy line, and on the noisy side of an edge.
   Image row = fixtures::flat(40, 40, 0, 0, 0), diagonal = row, edge = row;
   for (int k = 0; k < 40; ++k) row.pixel(k, 20)[0] = diagonal.pixel(k, 39 - k)[0] = 1;
@@ -119,7 +119,7 @@ TEST(Noise, ThatIsCautiousFollowsThinLinesAndEdges) {
   EXPECT_EQ(cautious(row, 20, 30), 0) << "far from it there is none";
 }
 
-TEST(Noise, ThatIsNoErrorOrFitsNothingIsRefused) {
+TEST(Noise, IsRefusedIfItIsNoErrorOrFitsNothing) {
   Image error = fixtures::flat(4, 4, 1, 1, 1);
   EXPECT_THROW(noise_of_standard_errors(error, 0.5, false), Error);
   EXPECT_THROW(noise_of_standard_errors(error, std::nan(""), false), Error);
@@ -379,7 +379,7 @@ TEST(ErrorBars, HaveTheNoiseFloorOfTheTextbook) {
   EXPECT_EQ(records::find(comparison.error_bars, "max_abs.x"), nullptr) << "a fact has none";
 }
 
-TEST(ErrorBars, OfNoNoiseAreTheFigureItself) {
+TEST(ErrorBars, AreTheFigureItselfWithoutNoise) {
   const Image b = fixtures::highlight(32, 32, 5, 1), a = fixtures::highlight(32, 32, 5, 1.1);
   ComparisonOptions options;
   options.noise = NoiseOptions{.a = fixtures::even_noise(32, 32, 0)};

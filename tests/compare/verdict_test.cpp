@@ -125,7 +125,7 @@ TEST(DifferencePicture, IsMagentaWhereAValueIsNotFinite) {
   EXPECT_THAT(difference_picture(a, b, 1).rgb, ::testing::ElementsAre(0, 0, 0, 255, 0, 255));
 }
 
-TEST(Tolerance, WithEdgesAllowsOutliersOnThemAndNowhereElse) {
+TEST(Tolerance, AllowsOutliersOnEdgesAndNowhereElse) {
   const Image b = fixtures::flat(4, 1, 1, 1, 1);
   Image a = b;
   a.pixel(1, 0)[2] = 0.5f;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -61,16 +61,9 @@ class DisplayViews : public ::testing::Test {
   }
   void TearDown() override { ::unsetenv("OCIO"); }
   std::string message_of(const DisplayViewChoice& choice, ExitCode code) {
-    try {
-      DisplayView::open(choice);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code);
-      return error.what();
-    }
-    ADD_FAILURE() << "it was opened";
-    return "";
+    return error_words(code, [&] { DisplayView::open(choice); });
   }
-  /// What a view makes of one value in red, green and blue.
+  /// A view's output for one value in red, green and blue.
   static float grey(const DisplayView& view, float value, double stops = 0) {
     Image image(1, 1);
     for (float& v : image.values()) v = value;
@@ -100,7 +93,7 @@ TEST_F(DisplayViews, GiveTheLightThatTheConfigurationSays) {
   EXPECT_NEAR(grey(*DisplayView::open({config_, "Square", "Half", ""}), 0.18f), 0.09f, 1e-4);
 }
 
-TEST_F(DisplayViews, OfAnOlderConfigurationAreDecodedAsSrgb) {
+TEST_F(DisplayViews, AreDecodedAsSrgbInAnOlderConfiguration) {
   const auto old = DisplayView::open({config_, "Old", "", ""});
   EXPECT_EQ(old->decoded_by(), "sRGB");
   EXPECT_EQ(old->choice().view, "Encoded");
@@ -123,7 +116,7 @@ TEST_F(DisplayViews, ComeFromTheEnvironmentUnlessAFileIsNamed) {
   EXPECT_THAT(message_of({}, ExitCode::kInput), HasSubstr("/nowhere/config.ocio ($OCIO)"));
 }
 
-TEST_F(DisplayViews, ThatDoNotExistAreRefusedWithThoseThatDo) {
+TEST_F(DisplayViews, AreListedWhereAnUnknownOneIsRefused) {
   EXPECT_THAT(message_of({config_, "Squar", "", ""}, ExitCode::kUsage),
               HasSubstr("did you mean 'Square'?; it has Square, Old"));
   EXPECT_THAT(message_of({config_, "Square", "Third", ""}, ExitCode::kUsage),
@@ -134,14 +127,14 @@ TEST_F(DisplayViews, ThatDoNotExistAreRefusedWithThoseThatDo) {
   EXPECT_THAT(message_of({config_, "", "", ""}, ExitCode::kInput), HasSubstr(config_));
 }
 
-TEST_F(DisplayViews, OfOurOwnConfigurationShowWhatThePlainDisplayShows) {
+TEST_F(DisplayViews, ShowInOurConfigurationWhatThePlainDisplayShows) {
   const auto own = DisplayView::open({kOwnConfig, "sRGB", "", ""});
   ASSERT_NE(own, nullptr);
   for (const float value : {-1.0f, 0.0f, 1e-4f, 0.003f, 0.18f, 0.9f, 1.0f, 40.0f})
     EXPECT_NEAR(grey(*own, value), std::clamp(value, 0.0f, 1.0f), 1e-6);
 }
 
-TEST_F(DisplayViews, OfBlendersStandardShowWhatThePlainDisplayShows) {
+TEST_F(DisplayViews, ShowInBlendersStandardWhatThePlainDisplayShows) {
   const std::string config = "/usr/share/blender/datafiles/colormanagement/config.ocio";
   if (!std::filesystem::exists(config)) GTEST_SKIP() << "Blender is not installed: no " << config;
   const auto standard = DisplayView::open({config, "sRGB", "Standard", ""});

@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -31,34 +32,22 @@ std::size_t entries(const fs::path& directory) {
   return std::size_t(std::distance(fs::directory_iterator(directory), fs::directory_iterator()));
 }
 
-ExitCode code_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ExitCode::kSuccess;
-}
+ExitCode code_of(const std::function<void()>& action) { return thrown_by(action).code(); }
 
-TEST(WriteFile, WhereNoFileCanBeIsAnOutputErrorThatNamesTheFile) {
+TEST(WriteFile, FailsWithTheNameWhereNoFileCanBe) {
   const TemporaryDirectory directory;
   const fs::path here = directory.path(), pipe = here / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const fs::path& wrong : {here / "no" / "a.txt", here, pipe, here / std::string(300, 'x')}) {
     EXPECT_EQ(code_of([&] { require_writable(wrong); }), ExitCode::kOutput) << wrong;
-    try {
-      write_file(wrong, "x");
-      ADD_FAILURE() << wrong << " was written";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kOutput) << wrong;
-      EXPECT_THAT(error.what(), testing::HasSubstr(wrong.string()));
-    }
+    EXPECT_THAT(error_words(ExitCode::kOutput, [&] { write_file(wrong, "x"); }),
+                testing::HasSubstr(wrong.string()));
   }
   EXPECT_TRUE(fs::is_fifo(pipe));
   EXPECT_EQ(entries(here), 1u);
 }
 
-TEST(WriteFile, ThroughALinkReplacesTheFileBehindIt) {
+TEST(WriteFile, ReplacesTheFileBehindALink) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "real", "old");
   fs::create_symlink("real", directory.path() / "link");
@@ -187,7 +176,7 @@ TEST(PartFile, TakesTheContentOfAnotherFile) {
   EXPECT_EQ(read_file(directory.path() / "to", 1'000'000), "before " + text + " after");
 }
 
-TEST(WriteFile, ThatDoesNotFitLeavesTheOldFileAndNoPart) {
+TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";
   write_file(path, "old");

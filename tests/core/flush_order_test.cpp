@@ -29,14 +29,6 @@ TEST(FlushOrder, FilesThatAreCommittedTogetherAreFlushedBefore) {
   EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), {}), 40);
 }
 
-TEST(FlushOrder, AFileThatIsNotFlushedIsSeen) {
-  const TemporaryDirectory directory;
-  const unflushed::Watch watch;
-  const FlushLater later;
-  write_file(directory.path() / "a", "a");
-  EXPECT_EQ(unflushed::names.size(), 1u);
-}
-
 TEST(FlushOrder, AGroupIsFlushedBeforeAnyoneIsToldOfIt) {
   const TemporaryDirectory directory;
   const unflushed::Watch watch;

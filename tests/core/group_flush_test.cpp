@@ -61,7 +61,7 @@ TEST(GroupFlush, TellsWhatFailsAndGoesOn) {
   EXPECT_EQ(failures, 2);
 }
 
-TEST(GroupFlush, OfAnotherFileSystemCallsAtOnce) {
+TEST(GroupFlush, CallsAtOnceForAnotherFileSystem) {
   const std::thread::id here = std::this_thread::get_id();
   GroupFlush flush({"/proc/self"}, [](const std::exception_ptr&) {});
   EXPECT_FALSE(flush.later());

@@ -148,7 +148,7 @@ constexpr Chromaticities kP3{0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0
     kAdobe{0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.3290},
     kRomm{0.7347, 0.2653, 0.1596, 0.8404, 0.0366, 0.0001, 0.3457, 0.3585};
 
-TEST_F(IccProfiles, OfPrimariesAndCurvesAreAppliedWithoutClipping) {
+TEST_F(IccProfiles, ApplyPrimariesAndCurvesWithoutClipping) {
   const Picture p3 = read(profile(parametric(2.4), kDisplayP3));
   EXPECT_EQ(p3.source.transfer, kByProfile);
   EXPECT_FALSE(p3.source.icc_is_srgb);
@@ -174,7 +174,7 @@ int lab_of_p3(const cmsUInt16Number in[], cmsUInt16Number out[], void*) {
   return 1;
 }
 
-TEST_F(IccProfiles, OfTablesAreApplied) {
+TEST_F(IccProfiles, ApplyTables) {
   void* const made = cmsCreateProfilePlaceholder(nullptr);
   cmsSetProfileVersion(made, 4.3);
   cmsSetDeviceClass(made, cmsSigDisplayClass);
@@ -199,7 +199,7 @@ TEST_F(IccProfiles, OfTablesAreApplied) {
   expect_near(picture.image, expected(kP3, srgb_light), 0.02);
 }
 
-TEST_F(IccProfiles, OfSrgbLeaveThePictureAsItWouldBeReadWithout) {
+TEST_F(IccProfiles, ChangeNothingIfTheyAreSrgb) {
   const auto plain = read_picture(
       file("b.png", png_file({.width = kPixels, .bits = 16, .samples = samples(kPixels)})), "");
   for (const std::string& bytes : {profile(parametric(2.4)), profile(table(1024, 0))}) {
@@ -214,7 +214,7 @@ TEST_F(IccProfiles, OfSrgbLeaveThePictureAsItWouldBeReadWithout) {
     EXPECT_FALSE(read(bytes).source.icc_is_srgb);
 }
 
-TEST_F(IccProfiles, OfGreyAreForGreyPictures) {
+TEST_F(IccProfiles, ServeGreyPicturesIfTheyAreGrey) {
   const std::string row = big_endian(0, 2) + big_endian(0x8000, 2) + big_endian(0xffff, 2);
   const auto grey = [&](const std::string& bytes) {
     return read_picture(
@@ -247,7 +247,7 @@ TEST_F(IccProfiles, OfGreyAreForGreyPictures) {
               HasSubstr("libpng refuses its ICC profile"));
 }
 
-TEST_F(IccProfiles, OfFloatsCountIfTheyAreLinear) {
+TEST_F(IccProfiles, CountForFloatsIfTheyAreLinear) {
   const std::vector<float> floats = {0.5f, 0.25f, 2};
   const auto read_tiff = [&](const std::string& bytes) {
     return read_picture(file("a.tif", tiff_file({.bits = 32,
@@ -273,7 +273,7 @@ TEST_F(IccProfiles, ComeAfterTheChunkCicpAndBeforeAllOthers) {
   EXPECT_EQ(read(wide, png_chunk("gAMA", big_endian(50000))).source.transfer, kByProfile);
 }
 
-TEST_F(IccProfiles, ThatAreDamagedAreAnErrorOfThePicture) {
+TEST_F(IccProfiles, AreAnErrorOfThePictureIfDamaged) {
   const auto jpeg_with = [&](const std::string& bytes) {
     const std::string jpeg = grey_jpeg_file(3);
     const std::string data = std::string("ICC_PROFILE\0\1\1", 14) + bytes;

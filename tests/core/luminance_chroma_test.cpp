@@ -139,7 +139,7 @@ TEST_F(LuminanceChroma, IsRefusedIfItIsCutOff) {
     EXPECT_THAT(refusal(file("cut.exr", whole.substr(0, size))), HasSubstr(": "));
 }
 
-TEST_F(LuminanceChroma, OfEveryPixelIsMixedInFloats) {
+TEST_F(LuminanceChroma, MixesEveryPixelInFloats) {
   const auto weights = luminance_weights(kRec709Chromaticities);
   std::uniform_real_distribution<double> any(0.1, 9);
   std::vector<float> y, ry, by;

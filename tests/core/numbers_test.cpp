@@ -9,7 +9,7 @@
 namespace lobelia {
 namespace {
 
-TEST(Numbers, are_written_as_people_read_them) {
+TEST(Numbers, AreWrittenAsPeopleReadThem) {
   EXPECT_EQ(number_text(0), "0");
   EXPECT_EQ(number_text(2.7056), "2.71");
   EXPECT_EQ(number_text(2.7056, 5), "2.7056");
@@ -22,7 +22,7 @@ TEST(Numbers, are_written_as_people_read_them) {
   EXPECT_EQ(number_text(-INFINITY), "minus infinite");
 }
 
-TEST(Numbers, shares_are_per_cent) {
+TEST(Numbers, WriteSharesInPerCent) {
   EXPECT_EQ(percent_text(4.9e-4), "0.049 %");
   EXPECT_EQ(percent_text(4e-4), "0.04 %");
   EXPECT_EQ(percent_text(4e-4, TrailingZeros::kKeep), "0.040 %");
@@ -32,7 +32,7 @@ TEST(Numbers, shares_are_per_cent) {
   EXPECT_EQ(percent_text(1), "100 %");
 }
 
-TEST(Numbers, seconds_counts_and_angles_have_their_units) {
+TEST(Numbers, HaveUnitsForSecondsCountsAndAngles) {
   EXPECT_EQ(seconds_text(0.0042), "4.2 ms");
   EXPECT_EQ(seconds_text(12.34), "12.3 s");
   EXPECT_EQ(seconds_text(200), "3 min 20 s");
@@ -43,7 +43,7 @@ TEST(Numbers, seconds_counts_and_angles_have_their_units) {
   EXPECT_EQ(degrees_text(17.1), "17.1°");
 }
 
-TEST(Ticks, linear_ticks_are_round_numbers_inside_the_range) {
+TEST(Ticks, AreRoundNumbersInsideALinearRange) {
   const auto ticks = linear_ticks(0, 62.4, 10);
   ASSERT_EQ(ticks.size(), 7u);
   EXPECT_EQ(ticks.back().value, 60);
@@ -52,7 +52,7 @@ TEST(Ticks, linear_ticks_are_round_numbers_inside_the_range) {
   EXPECT_TRUE(linear_ticks(0, NAN, 5).empty());
 }
 
-TEST(Ticks, log_ticks_label_powers_of_ten) {
+TEST(Ticks, LabelPowersOfTenOnALogScale) {
   const auto ticks = log_ticks(1e-3, 1e-1);
   ASSERT_EQ(ticks.size(), 19u);
   EXPECT_EQ(ticks.front().label, "10⁻³");
@@ -61,7 +61,7 @@ TEST(Ticks, log_ticks_label_powers_of_ten) {
   EXPECT_TRUE(log_ticks(0, 1).empty());
 }
 
-TEST(Ticks, an_axis_ends_at_a_round_number) {
+TEST(Ticks, EndAnAxisAtARoundNumber) {
   EXPECT_DOUBLE_EQ(round_up(2.7), 3);
   EXPECT_DOUBLE_EQ(round_up(163), 200);
   EXPECT_DOUBLE_EQ(round_up(0), 1);

@@ -134,14 +134,14 @@ std::string extended_webp(const std::string& exif) {
   return "RIFF" + little_endian(std::uint32_t(chunks.size() + 4), 4) + "WEBP" + chunks;
 }
 
-TEST_F(Orientation, OfAPngIsThatOfItsExif) {
+TEST_F(Orientation, ComesFromTheExifOfAPng) {
   expect_upright(".png", [&](const Pixels& pixels, int orientation) {
     const bool little = orientation % 2 == 0;
     return png_of(pixels, png_chunk("eXIf", exif(orientation, little, little ? 3 : 4)));
   });
 }
 
-TEST_F(Orientation, OfAPngIsTheSameForBothReaders) {
+TEST_F(Orientation, IsTheSameForBothReadersOfAPng) {
   for (int orientation = 1; orientation <= 8; ++orientation) {
     const std::string bytes =
         png_of(random_pixels(side(), side()), png_chunk("eXIf", exif(orientation)));
@@ -156,7 +156,7 @@ TEST_F(Orientation, OfAPngIsTheSameForBothReaders) {
   }
 }
 
-TEST_F(Orientation, OfAJpegIsThatOfItsExif) {
+TEST_F(Orientation, ComesFromTheExifOfAJpeg) {
   expect_upright(".jpg", [&](const Pixels& blocks, int orientation) {
     const std::string bytes = blocks.bytes();
     return with_segments(
@@ -165,13 +165,13 @@ TEST_F(Orientation, OfAJpegIsThatOfItsExif) {
   });
 }
 
-TEST_F(Orientation, OfATiffIsItsTag) {
+TEST_F(Orientation, ComesFromTheTagOfATiff) {
   expect_upright(".tif", [&](const Pixels& pixels, int orientation) {
     return tiff_file(tiff_of(pixels, orientation));
   });
 }
 
-TEST_F(Orientation, OfATiffIsUndoneOnceWhereLibtiffMirrors) {
+TEST_F(Orientation, IsUndoneOnceWhereLibtiffMirrors) {
   expect_upright(".tif", [&](const Pixels& pixels, int orientation) {
     Tiff tiff = tiff_of(pixels, orientation);
     tiff.photometric = 6;  // YCbCr
@@ -180,7 +180,7 @@ TEST_F(Orientation, OfATiffIsUndoneOnceWhereLibtiffMirrors) {
   });
 }
 
-TEST_F(Orientation, OfATiffIsThatOfThePage) {
+TEST_F(Orientation, ComesFromThePageOfATiff) {
   const Pixels first = random_pixels(3, 2), second = random_pixels(4, 5);
   std::string pages = tiff_file(tiff_of(stored(first, 3), 3));
   Tiff further = tiff_of(stored(second, 6), 6);
@@ -196,7 +196,7 @@ TEST_F(Orientation, OfATiffIsThatOfThePage) {
   EXPECT_EQ(values(read_picture(path, layers[1]).image), values(read_image(alone)));
 }
 
-TEST_F(Orientation, OfAWebPIsThatOfItsExif) {
+TEST_F(Orientation, ComesFromTheExifOfAWebP) {
   const Image plain = read_image(file("plain.webp", webp_file()));
   Pixels shown{plain.width(), plain.height()};
   for (std::size_t i = 0; i < plain.pixel_count(); ++i)
@@ -212,7 +212,7 @@ TEST_F(Orientation, OfAWebPIsThatOfItsExif) {
     }
 }
 
-TEST_F(Orientation, OfADpxIsThatOfItsHeader) {
+TEST_F(Orientation, ComesFromTheHeaderOfADpx) {
   // SMPTE ST 268: along a line, then from line to line.
   constexpr std::array<std::string_view, 8> kFields{
       "left to right, top to bottom", "right to left, top to bottom",
@@ -257,7 +257,7 @@ TEST_F(Orientation, OfADpxIsThatOfItsHeader) {
   }
 }
 
-TEST_F(Orientation, OfATgaIsUndoneOnce) {
+TEST_F(Orientation, IsUndoneOnceInATga) {
   // Bits 4 and 5 of its descriptor: the first value is at the right, the first row at the top.
   for (const int bits : {0, 0x10, 0x20, 0x30})
     for (const bool run_lengths : {false, true}) {
@@ -281,7 +281,7 @@ TEST_F(Orientation, OfATgaIsUndoneOnce) {
     }
 }
 
-TEST_F(Orientation, OfARadianceFileIsThatOfItsAxes) {
+TEST_F(Orientation, ComesFromTheAxesOfARadianceFile) {
   // Y points up. The first axis is that of the stored rows.
   for (const bool x_first : {false, true})
     for (const int x_sign : {1, -1})
@@ -315,7 +315,7 @@ TEST_F(Orientation, OfARadianceFileIsThatOfItsAxes) {
       }
 }
 
-TEST_F(Orientation, WithoutAMeaningIsUpright) {
+TEST_F(Orientation, IsUprightWithoutAMeaning) {
   const Pixels shown = random_pixels(3, 2);
   const Image upright = read_image(file("upright.png", png_of(shown, "")));
   std::string damaged = png_chunk("eXIf", exif(3));

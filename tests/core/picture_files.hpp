@@ -190,40 +190,17 @@ inline std::string grey_jpeg_file(int components) {
   return block_jpeg(1, 1, components, std::vector<std::uint8_t>(std::size_t(components), 128));
 }
 
-// ---- Ultra HDR: a JPEG with a second one, the gain map
-
-/// XMP of gain maps, with more attributes and elements: "hdrgm:GainMapMax='2'>".
-inline std::string xmp_segment(const std::string& properties) {
-  return jpeg_segment(
-      0xe1, std::string("http://ns.adobe.com/xap/1.0/\0", 29) +
-                "<x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF "
-                "xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'><rdf:Description "
-                "xmlns:hdrgm='http://ns.adobe.com/hdr-gain-map/1.0/' hdrgm:Version='1.0' " +
-                properties + "</rdf:Description></rdf:RDF></x:xmpmeta>");
+/// The XMP of a JPEG with a gain map ("Ultra HDR").
+inline std::string gain_map_segment() {
+  return jpeg_segment(0xe1,
+                      std::string("http://ns.adobe.com/xap/1.0/\0", 29) +
+                          "<rdf:Description xmlns:hdrgm='http://ns.adobe.com/hdr-gain-map/1.0/' "
+                          "hdrgm:Version='1.0'/>");
 }
 
 /// A JPEG with a segment behind its first marker.
 inline std::string with_segments(const std::string& jpeg, const std::string& segments) {
   return jpeg.substr(0, 2) + segments + jpeg.substr(2);
-}
-
-/// The base picture and its map in one file. `shift` moves the place of the map in MPF's list.
-inline std::string ultra_hdr(const std::string& base, const std::string& map,
-                             const std::string& base_segments = xmp_segment(">"),
-                             std::int64_t shift = 0) {
-  const auto mpf = [&](std::size_t base_size, std::size_t header) {
-    const std::string entries =
-        big_endian(0x30000) + big_endian(std::uint32_t(base_size)) + big_endian(0) + big_endian(0) +
-        big_endian(0) + big_endian(std::uint32_t(map.size())) +
-        big_endian(std::uint32_t(std::int64_t(base_size - header) + shift)) + big_endian(0);
-    return jpeg_segment(0xe2, std::string("MPF\0MM\0*", 8) + big_endian(8) + big_endian(2, 2) +
-                                  big_endian(0xb001, 2) + big_endian(4, 2) + big_endian(1) +
-                                  big_endian(2) + big_endian(0xb002, 2) + big_endian(7, 2) +
-                                  big_endian(32) + big_endian(38) + big_endian(0) + entries);
-  };
-  const std::size_t size = base.size() + base_segments.size() + mpf(0, 0).size();
-  const std::size_t header = 2 + base_segments.size() + 4 + 4;  // of MPF's TIFF
-  return with_segments(base, base_segments + mpf(size, header)) + map;
 }
 
 // ---- GIF89a: frames of one pixel and one colour
@@ -289,7 +266,7 @@ inline void write_exr_parts(const std::filesystem::path& path, const std::vector
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const ExrPart& part = parts[p];
     const auto width = std::size_t(part.data.max.x - part.data.min.x + 1);
-    // What each channel stores; kept until it is written.
+    // The values that each channel stores, kept until they are written.
     std::vector<std::vector<half>> halves;
     std::vector<std::vector<std::uint32_t>> numbers;
     halves.reserve(part.channels.size());

@@ -1,4 +1,5 @@
 #include "core/picture_layers.hpp"
+#include "tests/thrown.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +8,6 @@
 #include <map>
 #include <random>
 #include <set>
-
-#include "core/error.hpp"
 
 namespace lobelia {
 namespace {
@@ -23,14 +22,7 @@ std::vector<std::string> names(const std::vector<PicturePart>& parts) {
 }
 
 std::string message(const std::vector<PicturePart>& parts, const std::string& name) {
-  try {
-    find_layer("a.exr", parts, name);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInput);
-    return error.what();
-  }
-  ADD_FAILURE() << "'" << name << "' was found";
-  return "";
+  return error_words(ExitCode::kInput, [&] { find_layer("a.exr", parts, name); });
 }
 
 TEST(PictureLayers, AreFoundByNameInWhateverOrderTheChannelsAre) {
@@ -68,7 +60,7 @@ TEST(PictureLayers, YBesideXIsPartOfAVectorAndNoLuminance) {
               ElementsAre("", "motion.u", "motion.v"));
 }
 
-TEST(PictureLayers, OfColoursKnowTheirAlpha) {
+TEST(PictureLayers, KnowTheAlphaOfColours) {
   const std::vector<PicturePart> file = {
       {"first",
        {"R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B", "diffuse.alpha", "N.Y"}},
@@ -144,7 +136,7 @@ TEST(PictureLayers, LuminanceAndChromaAreOneLayerOfColours) {
   EXPECT_THAT(names(parts), ElementsAre("", "A", "Z"));
 }
 
-TEST(PictureLayers, WhatMayMeanMoreThanOneThingIsRefusedWithTheNamesThatThereAre) {
+TEST(PictureLayers, AreNamedWhereANameCouldMeanSeveral) {
   EXPECT_THAT(message({{{"", {"u", "v"}}}}, ""), HasSubstr("its channels are 'u', 'v'"));
   // Half of a picture whose colours are in RY and BY, one of which is missing.
   EXPECT_THAT(message({{{"", {"RY", "Y"}}}}, ""), HasSubstr("'RY', 'Y'"));
@@ -165,7 +157,7 @@ TEST(PictureLayers, AnUnknownNameIsToldTheNearest) {
   EXPECT_EQ(message({{{"", many}}}, "R").find('\n'), std::string::npos);
 }
 
-TEST(PictureLayers, OfAFileOfPartsHaveTheNameOfTheirPart) {
+TEST(PictureLayers, HaveTheNameOfTheirPart) {
   const std::vector<PicturePart> file = {{"beauty", {"R", "G", "B", "A"}},
                                          {"diffuse", {"R", "G", "B", "A"}},
                                          {"depth", {"depth.Z"}},
@@ -178,7 +170,7 @@ TEST(PictureLayers, OfAFileOfPartsHaveTheNameOfTheirPart) {
   EXPECT_EQ(find_layer("", file, "part4").part, 3u);
 }
 
-TEST(PictureLayers, ThatHaveOneNameAreToldApart) {
+TEST(PictureLayers, AreToldApartIfTheyShareAName) {
   const std::vector<PicturePart> file = {
       {"", {"R", "G", "B"}}, {"eye", {"R", "G", "B"}}, {"eye", {"R", "G", "B"}}};
   EXPECT_THAT(names(file), ElementsAre("", "eye", "eye#2"));
@@ -212,7 +204,7 @@ TEST(PictureLayers, AreFoundByTheNamesOfOtherRenderers) {
   EXPECT_THAT(find_layer("", {{{"", {"R", "G", "B"}}}}, "combined").where, ElementsAre(0, 1, 2));
 }
 
-TEST(PictureLayers, WhatARendererCallsItsPictureIsThePicture) {
+TEST(PictureLayers, TakeForThePictureWhatARendererCallsSo) {
   EXPECT_THAT(find_layer("", kCycles, "").where, ElementsAre(0, 1, 2));
   auto two = kCycles;
   for (const char* channel : {"Other.Combined.R", "Other.Combined.G", "Other.Combined.B"})
@@ -223,7 +215,7 @@ TEST(PictureLayers, WhatARendererCallsItsPictureIsThePicture) {
   EXPECT_THAT(find_layer("", two, "other.combined").where, ElementsAre(17, 18, 19));
 }
 
-TEST(PictureLayers, OfAStereoFileAreFoundByTheirView) {
+TEST(PictureLayers, AreFoundByTheirViewInAStereoFile) {
   // OpenEXR's rule: the default view is not in the names of channels without a layer.
   PicturePart plain{"", {"R", "G", "B", "right.R", "right.G", "right.B"}};
   plain.views = {"left", "right"};

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 using Refusals = PictureFiles;
 
-TEST_F(Refusals, OfATiffOfOneBitThatDoesNotSaySoAreBetterThanGarbage) {
+TEST_F(Refusals, MeetATiffOfOneBitThatDoesNotSaySo) {
   // 0x0f is four black and four white pixels.
   Tiff one{.width = 8, .height = 1, .samples_per_pixel = 1, .bits = 1, .photometric = 1};
   one.samples = "\x0f";
@@ -35,7 +35,7 @@ TEST_F(Refusals, OfATiffOfOneBitThatDoesNotSaySoAreBetterThanGarbage) {
   EXPECT_FALSE(is_tiff_without_bits(std::string("II*\0\x08\0\0\0\xff\xff", 10)));
 }
 
-TEST_F(Refusals, OfWhatWasCutOffComeWhereverTheCutIs) {
+TEST_F(Refusals, MeetAFileThatIsCutOffAnywhere) {
   const std::string pixels(75, 'x');
   struct Whole {
     const char* name;
@@ -68,7 +68,7 @@ TEST_F(Refusals, OfWhatWasCutOffComeWhereverTheCutIs) {
   }
 }
 
-TEST_F(Refusals, OfWhatWasCutOffKnowTheSizesThatHeadersState) {
+TEST_F(Refusals, NameTheSizesThatTheHeaderOfACutFileStates) {
   const auto cut = [](const std::string& bytes, const char* format) {
     return is_cut_off(bytes, format);
   };
@@ -123,7 +123,7 @@ void write_deep_exr(const std::filesystem::path& path, bool with_flat) {
   part.writePixels(1);
 }
 
-TEST_F(Refusals, OfADeepExrSayWhichPartItIsAndWhatToDo) {
+TEST_F(Refusals, NameThePartOfADeepExrAndWhatToDo) {
   const auto path = directory_.path() / "a.exr";
   write_deep_exr(path, false);
   EXPECT_THAT(refusal(path), HasSubstr("it is deep: a pixel has any number of samples; flatten it "
@@ -133,7 +133,7 @@ TEST_F(Refusals, OfADeepExrSayWhichPartItIsAndWhatToDo) {
   EXPECT_EQ(read_picture(path, "flat").image.pixel(1, 0)[2], 0.25f) << "the other part is flat";
 }
 
-TEST_F(Refusals, OfAnExrWhoseHeaderClaimsMoreThanTheFileHasComeBeforeOpenExrsOwn) {
+TEST_F(Refusals, MeetAnExrThatClaimsMoreThanItHasBeforeOpenExrDoes) {
   const auto box = window(0, 0, 1, 1);
   const ExrPart part{"one", box, box, {{"Y", {1}}}}, other{"two", box, box, {{"Y", {1}}}};
   for (const auto& parts : {std::vector{part}, std::vector{part, other}}) {
@@ -146,7 +146,7 @@ TEST_F(Refusals, OfAnExrWhoseHeaderClaimsMoreThanTheFileHasComeBeforeOpenExrsOwn
   }
 }
 
-TEST_F(Refusals, OfInksNameThem) {
+TEST_F(Refusals, NameInks) {
   EXPECT_THAT(refusal(file("a.jpg", grey_jpeg_file(4))), HasSubstr("its colours are"));
   EXPECT_THAT(refusal(file("a.tif", tiff_file({.samples_per_pixel = 4,
                                                .photometric = 5,
@@ -154,7 +154,7 @@ TEST_F(Refusals, OfInksNameThem) {
               HasSubstr("its colours are CMYK"));
 }
 
-TEST_F(Refusals, OfPicturesWithoutPixelsOrTooManyComeBeforeMemoryIsTaken) {
+TEST_F(Refusals, MeetNoPixelsOrTooManyBeforeMemoryIsTaken) {
   refusal(file("none.png", png_file({.width = 0, .height = 0})));
   refusal(file("none.ppm", "P6 0 0 255\n"));
   refusal(file("none.hdr", hdr_file(0, 0, "")));

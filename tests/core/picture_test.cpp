@@ -1,4 +1,4 @@
-// What the values of a file mean, by files made for that.
+// The meaning of a file's values, by files made for that.
 #include <ImfEnvmap.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ const double kMiddle = 0.2158605;  // sRGB's 128 of 255 as light, IEC 61966-2-1
 
 using Layers = PictureFiles;
 
-TEST_F(Layers, OfAnExrAreReadByName) {
+TEST_F(Layers, AreReadByNameFromAnExr) {
   const auto path = exr("a.exr", 1, 1,
                         {{"R", {1}},
                          {"G", {2}},
@@ -43,7 +43,7 @@ TEST_F(Layers, OfAnExrAreReadByName) {
   EXPECT_THAT(refusal(path, "difuse"), HasSubstr("did you mean 'diffuse'?"));
 }
 
-TEST_F(Layers, OfChannelsThatLieApartAreEachReadWhole) {
+TEST_F(Layers, AreReadWholeWhereTheirChannelsLieApart) {
   // OpenImageIO brings R, G, B of a prefix together; of the words it knows no order.
   const auto path = exr("a.exr", 2, 2,
                         {{"x.Blue", {3, 6, 9, 12}},
@@ -54,7 +54,7 @@ TEST_F(Layers, OfChannelsThatLieApartAreEachReadWhole) {
   EXPECT_THAT(values(read_image(path)), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
 }
 
-TEST_F(Layers, OfSeveralPartsAreReadFromTheirPart) {
+TEST_F(Layers, AreReadFromTheirPart) {
   const auto box = window(0, 0, 2, 1), narrow = window(1, 0, 1, 1);
   const auto path =
       exr("a.exr", {{"beauty", box, box, {{"R", {1, 4}}, {"G", {2, 5}}, {"B", {3, 6}}}},
@@ -68,7 +68,7 @@ TEST_F(Layers, OfSeveralPartsAreReadFromTheirPart) {
 
 using Windows = PictureFiles;
 
-TEST_F(Windows, WhereThereAreNoDataThePictureIsBlackAndWhatLiesOutsideIsCutOff) {
+TEST_F(Windows, LeaveBlackWhereNoDataAreAndCutOffTheRest) {
   // Data on (1, 1) to (3, 2), of a display on (-1, 0) to (2, 3).
   const auto path =
       exr("a.exr", {{"", window(1, 1, 3, 2), window(-1, 0, 4, 4), {{"Y", {1, 2, 3, 4, 5, 6}}}}});
@@ -85,7 +85,7 @@ TEST_F(Windows, WhereThereAreNoDataThePictureIsBlackAndWhatLiesOutsideIsCutOff) 
   EXPECT_EQ(read_picture(exr("b.exr", 1, 1, {{"Y", {1}}}), "").overscan.pixel_count(), 0u);
 }
 
-TEST_F(Windows, ThatDoNotMeetAreRefused) {
+TEST_F(Windows, AreRefusedIfTheyDoNotMeet) {
   EXPECT_THAT(refusal(exr("a.exr", {{"", window(9, 9, 1, 1), window(0, 0, 4, 4), {{"Y", {1}}}}})),
               HasSubstr("lies outside"));
 }
@@ -107,7 +107,7 @@ TEST(PixelWindows, FarFromTheOriginDoNotOverflow) {
   EXPECT_EQ(window_problem("w", {-5, 7, 32768, 4096}), "");
 }
 
-TEST_F(Windows, OfAPngAreAPlaceOnAPage) {
+TEST_F(Windows, ArePlacesOnAPageInAPng) {
   Png png{.samples = "\xff\xff\xff"};
   png.chunks = png_chunk("oFFs", big_endian(5) + big_endian(7) + '\0');
   EXPECT_THAT(values(read_image(file("a.png", png_file(png)))), ElementsAre(1, 1, 1));
@@ -138,7 +138,7 @@ TEST_F(Windows, AreThoseOfTheFirstLevelOfATiledMipMap) {
   EXPECT_THAT(layer_names(path), ElementsAre(""));
 }
 
-TEST_F(Windows, OfACubeMapHoldAllSixFaces) {
+TEST_F(Windows, HoldAllSixFacesOfACubeMap) {
   // Six faces of 4 x 4, one below the other.
   const auto path = directory_.path() / "cube.exr";
   Imf::Header header(4, 24);
@@ -154,7 +154,7 @@ TEST_F(Windows, OfACubeMapHoldAllSixFaces) {
 
 using Curves = PictureFiles;
 
-TEST_F(Curves, OfIntegersAreSrgbAndOfFloatsLinear) {
+TEST_F(Curves, AreSrgbForIntegersAndLinearForFloats) {
   const auto red = [&](const std::filesystem::path& path, const char* type, const char* transfer) {
     const Picture picture = read_picture(path, "");
     EXPECT_EQ(picture.source.value_type, type) << path;
@@ -181,12 +181,12 @@ TEST_F(Curves, OfIntegersAreSrgbAndOfFloatsLinear) {
   EXPECT_EQ(red(exr("a.exr", 1, 1, {{"Y", {0.5f}, Imf::HALF}}), "half", "linear"), 0.5f);
 }
 
-TEST_F(Layers, OfAPfmHaveTheirFirstRowAtTheBottom) {
+TEST_F(Layers, HaveTheirFirstRowAtTheBottomInAPfm) {
   EXPECT_THAT(values(read_image(file("a.pfm", pfm_file(1, 2, {1, 1, 1, 2, 2, 2})))),
               ElementsAre(2, 2, 2, 1, 1, 1));
 }
 
-TEST_F(Curves, OfAPngAreWhatItSays) {
+TEST_F(Curves, AreThoseThatAPngStates) {
   const auto with_gamma = [&](std::uint32_t gamma) {
     Png png{.samples = "\x80\x80\x80"};
     png.chunks = png_chunk("gAMA", big_endian(gamma));
@@ -205,7 +205,7 @@ TEST_F(Curves, OfAPngAreWhatItSays) {
   EXPECT_THAT(refusal(file("b.png", png_file(absurd))), HasSubstr("colour space"));
 }
 
-TEST_F(Curves, OfAPngAreItsChunksAndNoTextsOfALibrary) {
+TEST_F(Curves, ComeFromTheChunksOfAPngAndNoTextOfALibrary) {
   const std::string grey = "\x80\x80\x80";
   const auto png = [&](const std::string& chunks) {
     return read_picture(file("a.png", png_file({.samples = grey, .chunks = chunks})), "");
@@ -243,7 +243,7 @@ TEST_F(Curves, OfAPngAreItsChunksAndNoTextsOfALibrary) {
   EXPECT_THAT(bad(cicp(1, 13, 9, 1)), HasSubstr("no RGB"));
 }
 
-TEST_F(Curves, OfAnExrAreLinearWhateverALibrarySaysInIt) {
+TEST_F(Curves, AreLinearInAnExrWhateverALibrarySays) {
   const auto box = window(0, 0, 1, 1);
   const ExrPart plain{"", box, box, {{"R", {0.5f}}, {"G", {0.5f}}, {"B", {0.5f}}, {"A", {0.5f}}}};
   ExrPart said = plain;
@@ -259,7 +259,7 @@ using Primaries = PictureFiles;
 const Imf::Chromaticities kAcesOfOpenExr({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f},
                                          {0.32168f, 0.33767f});
 
-TEST_F(Primaries, OfAnExrAreConvertedAndSaid) {
+TEST_F(Primaries, AreConvertedFromAnExrAndReported) {
   const auto box = window(0, 0, 1, 1);
   ExrPart part{"",
                box,
@@ -293,7 +293,7 @@ TEST_F(Primaries, OfAnExrAreConvertedAndSaid) {
   EXPECT_THAT(refusal(exr("zero.exr", {part})), HasSubstr("its chromaticities 0 0 0"));
 }
 
-TEST_F(Primaries, OfAPngAreThoseOfItsChunks) {
+TEST_F(Primaries, ComeFromTheChunksOfAPng) {
   const auto chrm = [](const std::vector<double>& white_first) {
     std::string data;
     for (const double value : white_first) data += big_endian(std::uint32_t(value * 1e5 + 0.5));
@@ -330,7 +330,7 @@ TEST_F(Curves, AreNotForAlphaAndColoursAreMultipliedByItAsLight) {
       read_picture(file("rgb.png", png_file({.samples = "abc"})), "").source.multiplied_by_alpha);
 }
 
-TEST_F(Curves, OfNumbersInAnExrLeaveThemAsTheyAre) {
+TEST_F(Curves, LeaveNumbersInAnExrAsTheyAre) {
   const auto path = exr("a.exr", 1, 1, {{"Y", {0.5f}}, {"id", {123456}, Imf::UINT}});
   const Picture id = read_picture(path, "id");
   EXPECT_EQ(id.source.value_type, "uint");

@@ -140,7 +140,7 @@ bool are_same_values(const Image& a, const Image& b) {
   });
 }
 
-TEST_F(PlainPicture, OfRandomContentIsReadAsByOpenImageIo) {
+TEST_F(PlainPicture, ReadsRandomContentAsOpenImageIoDoes) {
   for (int i = 0; i < 300 * more_samples(); ++i)
     for (const char* format : {"openexr", "png"}) {
       const std::string bytes = random_file(format);
@@ -160,7 +160,7 @@ TEST_F(PlainPicture, OfRandomContentIsReadAsByOpenImageIo) {
     }
 }
 
-TEST_F(PlainPicture, ThatIsDamagedIsReadAsByOpenImageIoOrLeftToIt) {
+TEST_F(PlainPicture, ReadsDamagedFilesAsOpenImageIoDoesOrLeavesThem) {
   int plain_ones = 0;
   for (int i = 0; i < 400 * more_samples(); ++i)
     for (const char* format : {"openexr", "png"}) {
@@ -189,7 +189,7 @@ TEST_F(PlainPicture, ThatIsDamagedIsReadAsByOpenImageIoOrLeftToIt) {
   EXPECT_GT(plain_ones, 40);
 }
 
-TEST_F(PlainPicture, WithoutABlockFarBelowIsLeftToOpenImageIoBeforeAnyBandIsGivenOn) {
+TEST_F(PlainPicture, LeavesAFileWithoutABlockBeforeAnyBandIsGivenOn) {
   const Image image(2100, 2060);
   const auto path = directory_.path() / "large.exr";
   write_exr(path, image, {});

@@ -59,7 +59,7 @@ TEST(RgbMatrices, AreThoseOfOpenExrAndLeaveGreyAsItIs) {
   }
 }
 
-TEST(RgbMatrices, OfXyzUndoOpenExrsToXyzWithoutAdaptation) {
+TEST(RgbMatrices, UndoOpenExrsConversionToXyzWithoutAdaptation) {
   const Imath::M44f to_xyz = Imf::RGBtoXYZ(of_openexr(kRec709Chromaticities), 1);
   const RgbMatrix back = to_rec709(kXyzChromaticities).value();
   std::mt19937 random(5);
@@ -78,7 +78,7 @@ TEST(RgbMatrices, OfXyzUndoOpenExrsToXyzWithoutAdaptation) {
   expect_openexrs(adapted);
 }
 
-TEST(RgbMatrices, OfPrimariesThatAreNoneDoNotExist) {
+TEST(RgbMatrices, DoNotExistForImpossiblePrimaries) {
   EXPECT_FALSE(to_rec709({}));
   EXPECT_FALSE(to_rec709({0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.2, 0.2})) << "a line";
   EXPECT_FALSE(to_rec709({0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.7, 0.1})) << "a white outside";

@@ -20,6 +20,7 @@
 #include "core/keeper_protocol.hpp"
 #include "core/spawn.hpp"
 #include "core/write_limit.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -38,7 +39,7 @@ TEST(Process, ReportsItsExitCodeAndItsOutputLineByLine) {
   EXPECT_EQ(result.output_tail, "one\ntwo\nthree");
 }
 
-TEST(Process, OverItsTimeIsKilled) {
+TEST(Process, IsKilledAfterItsTime) {
   ProcessOptions options;
   options.timeout = std::chrono::milliseconds(300);
   const auto result = run_process(shell("sleep 1000"), options);
@@ -46,7 +47,7 @@ TEST(Process, OverItsTimeIsKilled) {
   EXPECT_FALSE(result.no_progress);
 }
 
-TEST(Process, WithoutAnySignOfProgressIsKilledLongBeforeItsTime) {
+TEST(Process, IsKilledEarlyWithoutAnySignOfProgress) {
   ProcessOptions options;
   options.no_progress_limit = seconds(5);  // enough to begin on a busy machine
   const auto silent = run_process(shell("echo begun; sleep 1000"), options);
@@ -55,7 +56,7 @@ TEST(Process, WithoutAnySignOfProgressIsKilledLongBeforeItsTime) {
   EXPECT_EQ(silent.output_tail, "begun\n");
 }
 
-TEST(Process, ThatTalksOrWritesIsNotTakenForOneThatHangs) {
+TEST(Process, IsNotTakenForHangingWhileItTalksOrWrites) {
   // For longer than the limit in all; those that it must stop go on for ever.
   const std::string for_a_while = "for i in $(seq 12)", for_ever = "while :";
   const auto hangs = [](bool watched, const std::string& loop, const std::string& action) {
@@ -86,7 +87,7 @@ TEST(Process, ThatTalksOrWritesIsNotTakenForOneThatHangs) {
 }
 
 TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrensAndNotOurs) {
-  // What we have had is not theirs, though the kernel hands it on to whoever is started.
+  // Our peak is not theirs, though the kernel hands it on to each program that is started.
   ASSERT_NE(std::string(256 << 20, 'x'), "");
   const auto idle = run_process(shell("sleep 0.3"), {});
   EXPECT_LT(idle.cpu_seconds, idle.seconds);
@@ -124,15 +125,9 @@ TEST(Process, IsKilledWhenItsCallerWantsItStopped) {
   EXPECT_EQ(result.exit_code, 128 + 9);
 }
 
-TEST(Process, ThatCannotBeStartedIsAnEngineErrorThatSaysWhy) {
-  const auto why = [](const std::string& program, const ProcessOptions& options) -> std::string {
-    try {
-      run_process({program}, options);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kEngine);
-      return error.what();
-    }
-    return "";
+TEST(Process, SaysInAnEngineErrorWhyItCannotBeStarted) {
+  const auto why = [](const std::string& program, const ProcessOptions& options) {
+    return error_words(ExitCode::kEngine, [&] { run_process({program}, options); });
   };
   EXPECT_EQ(why("/no/such/program", {}),
             "/no/such/program: cannot be started: No such file or directory");
@@ -318,7 +313,7 @@ INSTANTIATE_TEST_SUITE_P(Process, Contained,
 
 TEST(Process, IsContainedForAUserWithoutAnyRights) {
   if (::geteuid() != 0) GTEST_SKIP() << "the other tests are those of such a user";
-  // Of copies: nobody may enter the directory of the build.
+  // Runs copies: nobody may enter the directory of the build.
   const TemporaryDirectory directory;
   std::filesystem::permissions(directory.path(), std::filesystem::perms(0755));
   const auto test = std::filesystem::read_symlink("/proc/self/exe");

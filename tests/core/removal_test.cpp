@@ -1,4 +1,4 @@
-// What the one function that removes does, and what it refuses.
+// Removal: what it takes away, and what it refuses.
 #include "core/removal.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -26,7 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 class RemovalTest : public testing::Test {
  protected:
@@ -90,7 +90,7 @@ TEST_F(RemovalTest, GoesThroughNoLinkOnTheWayOrAtTheEnd) {
   EXPECT_EQ(removing.kept()[0].why, "a symbolic link, which is not followed");
 }
 
-TEST_F(RemovalTest, OfARootWithoutItsMarkerTakesNothing) {
+TEST_F(RemovalTest, TakesNothingFromARootWithoutItsMarker) {
   write_file(root() / "file", "x");
   for (const char* marker : {"theirs", ""}) {
     write_file(root() / "marker", marker);
@@ -186,7 +186,7 @@ TEST_F(RemovalTest, ADryRunTellsExactlyWhatGoesAndTakesNothing) {
     std::vector<fs::path> wanted;
     for (const auto& entry : fs::recursive_directory_iterator(root()))
       wanted.push_back(entry.path().lexically_relative(root()));
-    // What is in a directory before the directory, in one order for both.
+    // Entries before their directory, in one order for both.
     std::ranges::sort(wanted, std::greater());
     const auto before = all_paths(root());
     std::vector<std::string> would_go, went;
@@ -210,7 +210,7 @@ TEST_F(RemovalTest, ADryRunTellsExactlyWhatGoesAndTakesNothing) {
   EXPECT_GT(told, 400u);
 }
 
-TEST_F(RemovalTest, OfAResultAtOnceTellsWhereItWas) {
+TEST_F(RemovalTest, TellsWhereAResultWasThatItTookAtOnce) {
   fs::create_directories(root() / "tree" / "a");
   fs::create_directory(root() / "directory");
   std::vector<std::string> told;
@@ -250,18 +250,14 @@ TEST_F(RemovalTest, TakesNothingForMissingOrEmptyThatTooManyOpenFilesHide) {
                                          [&] { all.remove("tree"); }};
   for (const auto& look : looks) {
     const NoOpenFiles limit;
-    try {
-      look();
-      ADD_FAILURE() << &look - looks;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kNoResources) << &look - looks;
-      EXPECT_THAT(error.what(), HasSubstr("too many open files (ulimit -n)"));
-    }
+    EXPECT_THAT(error_words(ExitCode::kNoResources, look),
+                HasSubstr("too many open files (ulimit -n)"))
+        << &look - looks;
   }
   EXPECT_TRUE(fs::exists(root() / "tree" / "inner"));
 }
 
-TEST_F(RemovalTest, OfWhatATaskLeavesBehindWaitsForTheNextFarmWhereTooManyFilesAreOpen) {
+TEST_F(RemovalTest, LeavesPartsToTheNextFarmWhereTooManyFilesAreOpen) {
   const std::string part = fmt::format(".a.exr.{}-1.part", ::getpid());
   write_file(root() / part, "x");
   {

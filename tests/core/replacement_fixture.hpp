@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/replacement.hpp"
+#include "tests/thrown.hpp"
 
 /// replacement_faults.cpp stands between this program and the C library, and counts the calls that change files.
 namespace lobelia::faults {
@@ -151,18 +152,11 @@ class Replacements : public testing::Test {
     EXPECT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0);
     return WIFEXITED(status);
   }
-  template <class Work>
-  static Error error_of(Work work) {
-    try {
-      work();
-    } catch (const Error& error) {
-      return error;
-    }
-    return Error(ExitCode::kSuccess, "");
+  void replace(const std::vector<Replacement>& files) const {
+    replace_files(HeldDirectory(refs()), files);
   }
-  void replace(const std::vector<Replacement>& files) const { replace_files(HeldDirectory(refs()), files); }
   Error error_of_replacing(const std::vector<Replacement>& files) const {
-    return error_of([&] { replace(files); });
+    return thrown_by([&] { replace(files); });
   }
 
   TemporaryDirectory directory_;

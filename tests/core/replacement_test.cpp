@@ -29,7 +29,7 @@ TEST_F(ReplacementTest, AllFilesAreReplacedKeepTheirModeAndArePutBack) {
     expect_all_or_none();
     EXPECT_EQ(texts(), kOld);
     EXPECT_FALSE(fs::exists(refs() / "made"));
-    EXPECT_EQ(error_of([&] { undo_replacement(refs()); }).code(), ExitCode::kInput);
+    EXPECT_EQ(thrown_by([&] { undo_replacement(refs()); }).code(), ExitCode::kInput);
   }
 }
 
@@ -99,7 +99,7 @@ TEST_F(ReplacementTest, AnUndoThatIsKilledOrFailsIsFinishedByTheNextLook) {
         reached = !ends(call, [&] { undo_replacement(refs()); });
       } else {
         const Fault fault(kind, call);
-        EXPECT_THAT(error_of([&] { undo_replacement(refs()); }).code(),
+        EXPECT_THAT(thrown_by([&] { undo_replacement(refs()); }).code(),
                     AnyOf(ExitCode::kSuccess, ExitCode::kOutput));
         reached = faults::calls >= call;
       }
@@ -138,7 +138,7 @@ TEST_F(ReplacementTest, NothingIsReplacedIfAFileIsNotWhatWasCompared) {
   expect_refused("refs/made/here/c.exr: was made meanwhile");
 }
 
-TEST_F(ReplacementTest, WhatSomebodyElseWritesMeanwhileStays) {
+TEST_F(ReplacementTest, AFileThatSomebodyElseWritesMeanwhileStays) {
   int call = 1;
   for (bool reached = true; reached && call < kMostCalls && !HasFailure(); ++call) {
     SCOPED_TRACE(fmt::format("before call {}", call));
@@ -163,13 +163,13 @@ TEST_F(ReplacementTest, WhatSomebodyElseWritesMeanwhileStays) {
 TEST_F(ReplacementTest, AnUndoIsRefusedIfAFileWasChangedSince) {
   replace(three());
   put("refs/a.exr", "theirs");
-  const Error error = error_of([&] { undo_replacement(refs()); });
+  const Error error = thrown_by([&] { undo_replacement(refs()); });
   EXPECT_EQ(error.code(), ExitCode::kInput);
   EXPECT_THAT(error.what(), HasSubstr("refs/a.exr: was changed after it was accepted"));
   EXPECT_EQ(texts().at("sub/b.exr"), "new b") << "none is put back";
   put("refs/a.exr", "new a");
   write_file(ours("last/old-1"), "damaged");
-  EXPECT_THAT(error_of([&] { undo_replacement(refs()); }).what(),
+  EXPECT_THAT(thrown_by([&] { undo_replacement(refs()); }).what(),
               HasSubstr("refs/sub/b.exr: what was there before is damaged or gone"));
 }
 

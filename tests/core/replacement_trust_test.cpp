@@ -1,4 +1,4 @@
-// What a replacement trusts: of the files that a killed process left, the directory that keeps them, and its journal.
+// A replacement trusts neither the files of a killed process, nor their directory, nor its journal, without a check.
 #include "core/replacement.hpp"
 #include "core/replacement_journal.hpp"
 #include "tests/core/replacement_fixture.hpp"
@@ -62,7 +62,7 @@ TEST_F(ReplacementTrust, ADirectoryThatSomebodyMakesInAPlaceStays) {
       if (ended) break;
       fs::remove(refs() / "sub/b.exr");
       put("refs/sub/b.exr/notes.txt", "theirs");
-      ASSERT_EQ(error_of([&] { finish_replacement(refs()); }).what(), std::string());
+      ASSERT_EQ(thrown_by([&] { finish_replacement(refs()); }).what(), std::string());
       EXPECT_EQ(texts().at("sub/b.exr/notes.txt"), "theirs");
       replace({replacement("a", "a.exr", texts().at("a.exr"))});
       replace({replacement("a", "a.exr", "new a")});
@@ -86,7 +86,7 @@ TEST_F(ReplacementTrust, OldFilesArePrivateWhereOneOfTheirFoldersIs) {
   EXPECT_EQ(mode_of_last(0711), 0700u) << "who may not list it does not know the names in it";
 }
 
-TEST_F(ReplacementTrust, NobodyElseMayChangeTheDirectoryWhereEverybodyMayMakeEntries) {
+TEST_F(ReplacementTrust, OthersMayNotChangeTheDirectoryWhereAllMayMakeEntries) {
   fs::permissions(refs(), fs::perms(01777));
   replace(three());
   EXPECT_EQ(mode(kReplacedName), 0755u);
@@ -110,11 +110,11 @@ TEST_F(ReplacementTrust, ALockThatCannotBeOpenedStopsIt) {
   const Error error = error_of_replacing({replacement("b", "sub/b.exr", "old b")});
   EXPECT_EQ(error.code(), ExitCode::kOutput);
   EXPECT_THAT(error.what(), HasSubstr("lock cannot be opened"));
-  EXPECT_EQ(error_of([&] { undo_replacement(refs()); }).code(), ExitCode::kOutput);
+  EXPECT_EQ(thrown_by([&] { undo_replacement(refs()); }).code(), ExitCode::kOutput);
   EXPECT_EQ(texts(), (Texts{{"a.exr", "new a"}, {"sub/b.exr", "old b"}}));
 }
 
-TEST_F(ReplacementTrust, WhoMayChangeTheFolderMayTakeItsLock) {
+TEST_F(ReplacementTrust, AnyoneWhoMayChangeTheFolderMayTakeItsLock) {
   fs::permissions(refs(), fs::perms(02775));
   replace(three());
   EXPECT_EQ(mode(std::string(kReplacedName) + "/lock"), 0664u);
@@ -129,7 +129,7 @@ TEST_F(ReplacementTrust, ADirectoryWithoutOurMarkIsLeftAlone) {
     const Error error = error_of_replacing(three());
     EXPECT_EQ(error.code(), ExitCode::kOutput);
     EXPECT_THAT(error.what(), HasSubstr("is not that of lobelia compare --accept"));
-    EXPECT_EQ(error_of([&] { finish_replacement(refs()); }).code(), ExitCode::kOutput);
+    EXPECT_EQ(thrown_by([&] { finish_replacement(refs()); }).code(), ExitCode::kOutput);
     for (const char* stage : {"next", "last", "now"})
       EXPECT_EQ(read_file(ours(stage) / "thesis.txt", 100), "precious");
     EXPECT_EQ(fs::exists(ours(".gitignore")), *mark != '\0');
@@ -162,7 +162,7 @@ TEST_F(ReplacementTrust, NoLinkOnTheWayIsFollowed) {
     ASSERT_EQ(::stat(ours("now").c_str(), &status), 0);
     write_file(ours("now/journal"),
                ReplacementJournal{{{to, sha256("evil"), std::nullopt}}, {}, status.st_ino}.text());
-    EXPECT_EQ(error_of([&] { finish_replacement(refs()); }).code(), code) << to;
+    EXPECT_EQ(thrown_by([&] { finish_replacement(refs()); }).code(), code) << to;
     EXPECT_EQ(read_file(path("outside/x.exr"), 100), "precious");
   }
 }
@@ -174,7 +174,7 @@ TEST_F(ReplacementTrust, ADamagedJournalIsNamed) {
   for (std::size_t size = 0; size < journal.size(); ++size)
     EXPECT_FALSE(ReplacementJournal::read(journal.substr(0, size)).has_value()) << size;
   write_file(ours("last/journal"), journal.substr(0, journal.size() / 2));
-  const Error error = error_of([&] { undo_replacement(refs()); });
+  const Error error = thrown_by([&] { undo_replacement(refs()); });
   EXPECT_EQ(error.code(), ExitCode::kInput);
   EXPECT_THAT(error.what(), HasSubstr("last/journal: is missing or damaged"));
   EXPECT_EQ(texts(), kNew);
@@ -183,13 +183,13 @@ TEST_F(ReplacementTrust, ADamagedJournalIsNamed) {
 TEST_F(ReplacementTrust, ACopyOfAJournalIsNotActedUpon) {
   replace(three());
   fs::copy(ours("last"), ours("now"), fs::copy_options::recursive);
-  const Error error = error_of([&] { finish_replacement(refs()); });
+  const Error error = thrown_by([&] { finish_replacement(refs()); });
   EXPECT_EQ(error.code(), ExitCode::kInput) << "somebody may have sent it";
   EXPECT_THAT(error.what(), HasSubstr("now/journal: is a copy from another place"));
   EXPECT_EQ(texts(), kNew);
 }
 
-TEST_F(ReplacementTrust, WhoMayChangeTheFolderMayChangeItsJournal) {
+TEST_F(ReplacementTrust, AnyoneWhoMayChangeTheFolderMayChangeItsJournal) {
   for (const fs::path& folder : {refs(), refs() / "sub"}) fs::permissions(folder, fs::perms(02775));
   replace(three());
   for (const char* made : {"", "last"})
@@ -204,7 +204,7 @@ TEST_F(ReplacementTrust, AnotherUsersJournalDoesNotCountWhereEverybodyMayWrite) 
   constexpr uid_t kSomebody = 12345;
   ASSERT_EQ(::lchown(ours("").parent_path().c_str(), kSomebody, gid_t(-1)), 0);
   EXPECT_FALSE(has_replacements(refs()));
-  EXPECT_EQ(error_of([&] { undo_replacement(refs()); }).code(), ExitCode::kInput);
+  EXPECT_EQ(thrown_by([&] { undo_replacement(refs()); }).code(), ExitCode::kInput);
   EXPECT_EQ(error_of_replacing({replacement("a", "a.exr", "new a")}).code(), ExitCode::kOutput);
   fs::permissions(refs(), fs::perms(0777));
   EXPECT_TRUE(has_replacements(refs()))

@@ -33,7 +33,7 @@ std::string path_of(const Chart& chart) {
   return document.select_node("//path").node().attribute("d").value();
 }
 
-TEST(SvgChart, values_that_cannot_be_drawn_are_gaps) {
+TEST(SvgChart, LeavesGapsForValuesThatCannotBeDrawn) {
   const std::string path = path_of(chart_of({1, 2, NAN, 2, INFINITY, 3}));
   EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 3);
   EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 1);
@@ -43,7 +43,7 @@ TEST(SvgChart, values_that_cannot_be_drawn_are_gaps) {
   EXPECT_EQ(std::count(log_path.begin(), log_path.end(), 'M'), 2);
 }
 
-TEST(SvgChart, a_higher_value_is_drawn_higher_and_a_decade_is_a_fixed_step) {
+TEST(SvgChart, DrawsHigherValuesHigherAndDecadesAsEqualSteps) {
   Chart chart = chart_of({0.1, 1, 10});
   chart.y = {"log", 0.1, 10, true};
   double x[3], y[3];
@@ -55,7 +55,7 @@ TEST(SvgChart, a_higher_value_is_drawn_higher_and_a_decade_is_a_fixed_step) {
   EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.02);
 }
 
-TEST(SvgChart, lines_can_be_told_apart_without_colour) {
+TEST(SvgChart, TellsLinesApartWithoutColour) {
   Chart chart = chart_of({1, 2});
   for (int style = 2; style <= 5; ++style) {
     chart.series.push_back(chart.series.front());
@@ -70,7 +70,7 @@ TEST(SvgChart, lines_can_be_told_apart_without_colour) {
   EXPECT_EQ(dashes.size(), 5u);
 }
 
-TEST(SvgChart, an_axis_is_marked_where_it_says) {
+TEST(SvgChart, MarksItsAxesWhereTheyAreLabelled) {
   Chart chart = chart_of({1, 2, 3});
   chart.x = {"n", 16, 1024, true, {16, 128, 1024}};
   pugi::xml_document document;
@@ -85,7 +85,7 @@ TEST(SvgChart, an_axis_is_marked_where_it_says) {
   EXPECT_NEAR(at("128") - at("16"), at("1024") - at("128"), 0.02) << "logarithmic";
 }
 
-TEST(SvgChart, names_points_where_no_other_name_is_in_the_way) {
+TEST(SvgChart, NamesPointsWhereNoOtherNameIsInTheWay) {
   Chart chart = chart_of({});
   ChartSeries& points = chart.series[0];
   points.markers = true;
@@ -108,7 +108,7 @@ TEST(SvgChart, names_points_where_no_other_name_is_in_the_way) {
       << "points that lie on another are told apart";
 }
 
-TEST(SvgChart, writes_long_labels_and_legends_in_lines_and_0_as_0) {
+TEST(SvgChart, WritesLongLabelsInLinesAnd0As0) {
   Chart chart = chart_of({1, 2, 3});
   chart.width = 300;
   chart.y = {
@@ -127,7 +127,7 @@ TEST(SvgChart, writes_long_labels_and_legends_in_lines_and_0_as_0) {
   EXPECT_EQ(lines.size(), 2u);
 }
 
-TEST(SvgChart, alone_has_a_namespace_a_title_a_ground_and_a_size) {
+TEST(SvgChart, HasANamespaceATitleAGroundAndASizeAlone) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(draw_chart_file(chart_of({1, 2, 3})).c_str()));
   const pugi::xml_node svg = document.child("svg");
@@ -151,7 +151,7 @@ std::set<std::string> series_colours(const std::string& css) {
   return colours;
 }
 
-TEST(SvgChart, has_the_same_colours_alone_and_in_the_gallery) {
+TEST(SvgChart, HasTheSameColoursAloneAndInTheGallery) {
   const auto alone = series_colours(read_file(LOBELIA_SOURCE_DIR "/core/svg_chart.css", 1 << 20));
   EXPECT_EQ(alone.size(), 10u) << "five in the light, five in the dark";
   EXPECT_EQ(alone, series_colours(

@@ -65,7 +65,7 @@ TEST(PrintableText, IsShortAndEscapesWhatATerminalWouldObey) {
   EXPECT_EQ(printable("ab\xC3\xA9", 3), "ab...") << "not half a character";
 }
 
-TEST(PrintableText, OfAnyBytesIsOneLineOfUtf8WithoutControlCharacters) {
+TEST(PrintableText, MakesOneLineOfUtf8WithoutControlCharactersOfAnyBytes) {
   std::mt19937 random(18);
   for (int i = 0; i < 2000; ++i) {
     std::string bytes(random() % 40, '\0');

@@ -66,7 +66,7 @@ TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
   EXPECT_EQ(done.done, 2u) << "one comparison, and a profile without POV-Ray";
 }
 
-TEST_F(ChunkTest, OfAnotherMachineIsHandedBackUndoneAndNotFailed) {
+TEST_F(ChunkTest, HandsBackTheChunkOfAnotherMachineUndone) {
   const fs::path file = chunk(two(), "*");
   const Json record = read_json(file);
   const auto because = [&](const std::function<void(Json&)>& change) {

@@ -1,4 +1,4 @@
-// Whose a draft is, and whether locks are shared: what is decided without a second machine.
+// Makers of drafts and shared locks, as far as one machine can decide.
 #include "farm/cache_layout.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 DraftName of(const ProcessIdentity& maker, std::uint64_t inode = 7) { return {maker, inode, 42}; }
 
-/// Of a child that has ended.
+/// The PID of a child that has ended.
 std::uint64_t dead_pid() {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
@@ -75,7 +75,7 @@ TEST(DraftName, TellsTheLivingFromTheDeadOfThisMachineAndNothingOfOthers) {
   EXPECT_EQ(with([](auto& p) { p.boot = std::string(32, '0'); }), Life::kUnknown);
 }
 
-TEST(Drafts, OfTheDeadGoAndThoseOfOthersStayUntilTheirSharedLockIsFree) {
+TEST(Drafts, GoOnceTheirMakerIsDeadOrTheirSharedLockIsFree) {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "cache";
   const ResultCache cache(path);
@@ -109,7 +109,7 @@ TEST(Drafts, OfTheDeadGoAndThoseOfOthersStayUntilTheirSharedLockIsFree) {
   EXPECT_EQ(found.removed + found.others, 4u);
 }
 
-TEST(Drafts, OfAFarmWhoseFileOfLocksWasRemovedStay) {
+TEST(Drafts, StayIfTheFileOfLocksWasRemoved) {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "cache";
   const ResultCache first(path);

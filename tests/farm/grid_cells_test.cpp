@@ -125,7 +125,7 @@ TEST(CellsOfEveryGrid, AreComparedWithEnginesOfTheGrid) {
     EXPECT_THAT(cell.engines, ElementsAre("povray", "analytic"));
 }
 
-TEST(Cells, OfAListAdvanceTogetherWithTheLastFactorFastest) {
+TEST(Cells, AdvanceTogetherInAListWithTheLastFactorFastest) {
   std::vector<std::string> ids;
   for (const auto& cell : cells_of(grid_of(kScene + kOtherList + kList))) ids.push_back(cell.id);
   EXPECT_THAT(ids, ElementsAre("8x8-spp4-phong_rdf-n16", "8x8-spp4-phong_rdf-n128",
@@ -163,7 +163,7 @@ TEST(Cells, ShowTheValuesOfTheirAxes) {
   }
 }
 
-TEST(Cells, OfABareNormalisationKeepTheLobeOfTheScene) {
+TEST(Cells, KeepTheLobeOfTheSceneUnderABareNormalisation) {
   const Grid grid = grid_of(kScene + axis("normalisation", "paper, cs16:exact"));
   const auto cells = cells_of(grid);
   const auto lobe = read_scene(kSceneFiles + "head_on.xml").materials.at(0).highlight.lobe;
@@ -173,7 +173,7 @@ TEST(Cells, OfABareNormalisationKeepTheLobeOfTheScene) {
   EXPECT_EQ(info(scene_of(grid, cells[1]).materials.at(0).highlight.lobe).name, "cs16");
 }
 
-TEST(Cells, OfAnAxisOfScenesAllHaveTheSizeOfTheFilm) {
+TEST(Cells, HaveTheSizeOfTheFilmOnAnAxisOfScenes) {
   const Grid grid =
       grid_of("<film width=\"7\" height=\"9\"/>" + axis("exponent", "16") +
               axis("scene", kSceneFiles + "head_on.xml") + "<include exponent=\"16\" scene=\"" +

@@ -55,7 +55,7 @@ TEST_F(JobGraphTest, EveryJobOfEveryCellHasAKeyOfItsOwn) {
   EXPECT_EQ(planned.keys(), same.keys());
 }
 
-TEST_F(JobGraphTest, WhateverChangesTheSceneChangesAllItsKeys) {
+TEST_F(JobGraphTest, EveryChangeOfTheSceneChangesAllItsKeys) {
   const Planned planned(grid("16", "<engine name=\"analytic\"/>"));
   const auto changes = std::vector<void (*)(Scene&)>{
       [](Scene& s) { s.film.width += 1; },
@@ -86,7 +86,7 @@ TEST_F(JobGraphTest, AJobWaitsForThoseThatMakeItsInputs) {
     }
 }
 
-TEST_F(JobGraphTest, WithoutItsReferenceACellHasNoComparison) {
+TEST_F(JobGraphTest, ACellWithoutItsReferenceHasNoComparison) {
   write_file(directory_.path() / "x.exr", "");
   Grid compared =
       grid("16", "<engine name=\"analytic\"/><pictures name=\"theirs\" files=\"x.exr\"/>");

@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A file of others that lies beside the outputs, and in a folder that was written before.
 LETTER = "letter.txt"
 
-# What differs from run to run. Keys of records, wherever they are: times, and what a run found in the cache or on the machine.
+# Keys of records that differ from run to run, wherever they are: times, and finds in the cache or on the machine.
 VARYING_KEYS = {"seconds", "cpuSeconds", "peakMemoryBytes", "engineCommands", "command", "host", "cache", "locks", "threads",
                 "plan"}
 # In records of these kinds also hashes of records that have such keys.
@@ -58,7 +58,6 @@ def cases():
         Case("gallery", gallery + ["site"], ["site"], [["gallery", "before", "-o", "site"]]),
         Case("gallery publish", publish + ["public"], ["public"]),
         Case("gallery publish", publish + ["public"], ["public"], [["gallery", "publish", "before", "-o", "public"]]),
-        Case("gallery publish", publish + ["public.zip"], ["public.zip"]),
         Case("gallery publish", publish + ["page.html"], ["page.html"], [["gallery", "publish", "before", "-o", "page.html"]]),
     ]
 
@@ -100,13 +99,13 @@ def comparable(name, content):
 
 
 def results_of(case, files):
-    """What a command ends with. An empty directory may stay."""
+    """The results of a command. An empty directory may stay."""
     return {name: (mode, comparable(name, content)) for name, (mode, _, content) in files.items()
             if content is not None and case.is_output(name) and not name.startswith(NOT_COMPARED)}
 
 
 def others_of(case, files):
-    """What belongs to others."""
+    """Files of others."""
     return {name: file for name, file in files.items() if not case.is_output(name) and not case.is_scratch(name)}
 
 
@@ -128,7 +127,7 @@ GRID = '<grid version="1"><scene file="scene.xml"/><film width="16" height="16"/
 
 
 def make_common(bench):
-    """What all inputs have: pictures that pass, pictures that differ, grids, and two runs of a farm."""
+    """All inputs have pictures that pass, pictures that differ, grids, and two runs of a farm."""
     place = bench.place
     for folder in ("home", "tmp", "mine/sub", "truth/sub", "other/sub", "out"):
         (place / folder).mkdir(parents=True)

@@ -304,17 +304,20 @@ TEST_F(Changes, the_timeline_has_every_run_with_its_date) {
   set_date(was_, 10);
   publish({oldest.directory(), was_.directory()});
   const Site site(site_.path());
-  const auto circles =
-      site.cell(FakeFarm::kPass).select_nodes("//*[@class='timeline']//circle/title");
-  ASSERT_EQ(circles.size(), 3u);
+  const auto points =
+      site.cell(FakeFarm::kPass)
+          .select_nodes("//*[contains(@class,'timeline')]//g[@class='point']/title");
+  ASSERT_EQ(points.size(), 3u);
   std::vector<std::string> words;
-  for (const auto& circle : circles) words.push_back(text_of(circle.node()));
+  for (const auto& point : points) words.push_back(text_of(point.node()));
   EXPECT_THAT(words[0], HasSubstr(": 0.02 %"));
   EXPECT_THAT(words[1], HasSubstr(": 0.04 %"));
   EXPECT_THAT(words[2], HasSubstr("this run: 0.04 %"));
   EXPECT_LT(words[0], words[1]) << "dates";
   EXPECT_LT(words[1], words[2]);
-  EXPECT_TRUE(site.cell(FakeFarm::kPass).select_node("//*[@class='timeline']//*[@class='limit']"));
+  EXPECT_THAT(
+      text_of(site.cell(FakeFarm::kPass).select_node("//*[contains(@class,'timeline')]").node()),
+      HasSubstr("limit"));
   EXPECT_THAT(sentence(), HasSubstr("Since " + words[1].substr(0, 10) + " ("));
 }
 

@@ -66,7 +66,8 @@ class GalleryEvidence : public ::testing::Test {
     const fs::path& directory = options_.site.empty() ? farm_.directory() : options_.site;
     const Site site(directory);
     EXPECT_THAT(site.bad_links(), IsEmpty());
-    const std::string place = "//td[.//a[contains(@href,'" + FakeFarm::kPass + "/index.html')]]";
+    const std::string place =
+        "//li[@data-status][.//a[contains(@href,'" + FakeFarm::kPass + "/index.html')]]";
     const std::string state =
         site.page("index.html").select_node((place + "/@data-status").c_str()).attribute().value();
     cell_text_ = text_of(site.cell(FakeFarm::kPass));

@@ -2,6 +2,7 @@
 #include "gallery/publication.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,8 +15,8 @@
 #include "core/error.hpp"
 #include "core/sha256.hpp"
 #include "gallery/checked_cell.hpp"
+#include "gallery/published_texts.hpp"
 #include "gallery/publisher.hpp"
-#include "gallery/scrub.hpp"
 #include "records/cost.hpp"
 #include "records/render.hpp"
 #include "tests/gallery/fake_farm.hpp"
@@ -68,36 +69,6 @@ std::string unfolded(const std::string& text) {
   return all;
 }
 
-std::uint64_t number_at(std::string_view bytes, std::size_t at, int count) {
-  std::uint64_t number = 0;
-  while (count-- > 0) number = number << 8 | static_cast<unsigned char>(bytes[at + count]);
-  return number;
-}
-
-/// The files below `folder` of a zip, by its list at the end.
-std::map<std::string, std::string> unzipped(std::string_view zip,
-                                            std::string_view folder = "site/") {
-  std::map<std::string, std::string> files;
-  const std::size_t end = zip.rfind("PK\x05\x06");
-  std::size_t at = number_at(zip, end + 16, 4);
-  for (auto count = number_at(zip, end + 10, 2); count > 0; --count) {
-    EXPECT_EQ(zip.substr(at, 4), "PK\x01\x02");
-    const auto size = number_at(zip, at + 28, 2), packed = number_at(zip, at + 20, 4);
-    const std::string name(zip.substr(at + 46, size));
-    const std::size_t local = number_at(zip, at + 42, 4);
-    EXPECT_EQ(zip.substr(local + 30, size), name);
-    const std::string_view bytes = zip.substr(local + 30 + size, packed);
-    const bool is_stored = number_at(zip, at + 10, 2) == 0;
-    std::string text = is_stored ? std::string(bytes) : inflated(bytes, -MAX_WBITS);
-    EXPECT_EQ(number_at(zip, at + 16, 4),
-              ::crc32(0, reinterpret_cast<const Bytef*>(text.data()), uInt(text.size())));
-    EXPECT_TRUE(name.starts_with(folder)) << name;
-    files[name.substr(folder.size())] = std::move(text);
-    at += 46 + size;
-  }
-  return files;
-}
-
 /// A run that tells of its machine wherever a record or a log can.
 class TelltaleFarm : public FakeFarm {
  public:
@@ -114,7 +85,7 @@ class TelltaleFarm : public FakeFarm {
     write_file(cell_directory(kPass) / "povray.log",
                "$ /opt/telltale/bin/povray -I/opt/telltale/include\nSaved: \"" + kPlace +
                    "/a b.exr\" by " + kUser + "@" + kHost + " (pid 4711)\nfile://" +
-                   directory().string() + "/x.pov: ok, see https://povray.org/a/b\n");
+                   directory().string() + "/x.pov: ok\nsee https://povray.org/a/b\n");
     seal(kPass);
     change<records::Cell>(kFailed, "cell.json", [](records::Cell& cell) {
       cell.problems.push_back(
@@ -146,25 +117,18 @@ TEST(Publication, tells_nothing_of_the_machine_in_any_file_of_any_form) {
   const TemporaryDirectory place;
   const auto before = files_below(farm.directory());
   for (const bool packed : {false, true})
-    for (const char* out : {"site", "site.zip", "site.html"}) {
+    for (const char* out : {"site", "site.html"}) {
       GalleryOptions options = farm.options(place.path() / (packed ? "packed" : "whole") / out);
       options.metrics_only = options.packed.emplace(packed);
       const PublishedGallery made = write_publication(farm.directory(), options);
-      if (fs::path(out).extension() == ".zip") {
-        const fs::path folder = options.site.parent_path() / "site";
-        const auto files = unzipped(content(made.index));
-        require_nothing_told(files, farm);
-        EXPECT_EQ(files, files_below(folder)) << "the folder's files";
-      }
       EXPECT_TRUE(made.doubts.empty()) << made.doubts[0];
     }
   require_nothing_told(files_below(place.path()), farm);
   EXPECT_EQ(files_below(farm.directory()), before) << "RUN is not changed";
   const std::string log =
       content(place.path() / "whole/site/cells" / FakeFarm::kPass / "povray.log");
-  EXPECT_THAT(log, HasSubstr("$ povray "));
-  EXPECT_THAT(log, HasSubstr("Saved: \"a b.exr\" by "));
-  EXPECT_THAT(log, HasSubstr("https://povray.org/a/b"));
+  EXPECT_THAT(log, HasSubstr(kLeftOut));
+  EXPECT_THAT(log, HasSubstr("see https://povray.org/a/b"));
 }
 
 TEST(Publication, has_hashes_of_what_it_publishes_and_seals_that_fit) {
@@ -235,16 +199,27 @@ TEST(Publication, names_style_and_script_by_content_and_removes_the_old_ones) {
 TEST(Publication, is_the_same_bytes_for_the_same_run) {
   const FakeFarm farm;
   const TemporaryDirectory place;
-  for (const char* ending : {".zip", ".html"}) {
-    GalleryOptions options;
-    std::vector<std::string> bytes;
-    for (const char* folder : {"a", "b"}) {
-      options.site = place.path() / folder / (std::string("site") + ending);
-      write_publication(farm.directory(), options);
-      bytes.push_back(content(options.site));
-    }
-    EXPECT_EQ(bytes[0], bytes[1]) << ending;
-    write_publication(farm.directory(), options);  // its own may be replaced
+  GalleryOptions options;
+  std::vector<std::string> bytes;
+  for (const char* folder : {"a", "b"}) {
+    options.site = place.path() / folder / "site.html";
+    write_publication(farm.directory(), options);
+    bytes.push_back(content(options.site));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+  write_publication(farm.directory(), options);  // its own may be replaced
+}
+
+TEST(Publication, SaysWhatWritesAZip) {
+  const FakeFarm farm;
+  GalleryOptions options;
+  options.site = "site.ZIP";
+  try {
+    write_publication(farm.directory(), options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("zip -r site.ZIP FOLDER"));
   }
 }
 
@@ -253,7 +228,7 @@ TEST(Publication, refuses_what_is_not_its_own) {
   const TemporaryDirectory place;
   const fs::path foreign = place.path() / "foreign";
   fs::create_directories(foreign);
-  for (const char* name : {"foreign/file", "a.zip", "a.html"})
+  for (const char* name : {"foreign/file", "a.html"})
     write_file(place.path() / name, std::string_view("mine"));
   // Photographs have such a list, too; and pictures that were compared have one of ours.
   for (const char* name : {"photos", "report"}) fs::create_directories(place.path() / name);
@@ -261,12 +236,12 @@ TEST(Publication, refuses_what_is_not_its_own) {
   records::write_record(place.path() / "report/gallery.json",
                         records::GalleryList{{"comparison.json", "index.html"}, {}});
   fs::create_symlink(foreign, place.path() / "link");
-  fs::create_directory(place.path() / "folder.zip");
+  fs::create_directory(place.path() / "folder.html");
   for (const fs::path& out :
-       {foreign, place.path() / "link", place.path() / "a.zip", place.path() / "a.html",
-        place.path() / "folder.zip", place.path() / "photos", place.path() / "report",
-        farm.directory(), farm.directory() / "cells", farm.directory() / "site",
-        farm.directory() / "site.zip", farm.directory() / "cells/new.html"}) {
+       {foreign, place.path() / "link", place.path() / "a.html", place.path() / "folder.html",
+        place.path() / "photos", place.path() / "report", farm.directory(),
+        farm.directory() / "cells", farm.directory() / "site", farm.directory() / "site.html",
+        farm.directory() / "cells/new.html"}) {
     GalleryOptions options;
     options.site = out;
     try {
@@ -276,9 +251,9 @@ TEST(Publication, refuses_what_is_not_its_own) {
       EXPECT_EQ(error.code(), ExitCode::kOutput) << out;
     }
   }
-  EXPECT_EQ(content(place.path() / "a.zip"), "mine");
+  EXPECT_EQ(content(place.path() / "a.html"), "mine");
   EXPECT_EQ(content(place.path() / "photos/gallery.json"), R"({"photos":[]})");
-  for (const char* name : {"index.html", "site", "site.zip", "cells/new.html"})
+  for (const char* name : {"index.html", "site", "site.html", "cells/new.html"})
     EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
 }
 
@@ -336,20 +311,6 @@ TEST(Publication, a_killed_one_leaves_no_key_of_a_file_that_it_made_anew) {
   EXPECT_EQ(content(place.path() / "site/derived"), "one");
 }
 
-TEST(Publication, in_a_zip_has_plain_names_whatever_the_zip_is_called) {
-  const FakeFarm farm;
-  const TemporaryDirectory place;
-  for (const char* name : {"...zip", "a\\..\\b.zip", "x\xff.zip"}) {
-    GalleryOptions options;
-    options.site = place.path() / name;
-    options.metrics_only = true;
-    write_publication(farm.directory(), options);
-    const auto files = unzipped(content(place.path() / name), "gallery/");
-    EXPECT_TRUE(files.contains("index.html")) << name;
-    for (const auto& [file, text] : files) EXPECT_EQ(file.find(".."), file.npos) << name;
-  }
-}
-
 TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behind) {
   const FakeFarm farm;
   const TemporaryDirectory place, elsewhere;
@@ -358,7 +319,7 @@ TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behi
   write_file(elsewhere.path() / "secret", std::string_view("secret"));
   fs::create_symlink(elsewhere.path() / "secret", log);
   farm.seal(FakeFarm::kPass);
-  for (const char* out : {"site", "site.zip", "site.html"}) {
+  for (const char* out : {"site", "site.html"}) {
     GalleryOptions options;
     options.site = place.path() / out;
     options.scrubbed = true;
@@ -404,66 +365,114 @@ TEST(Publication, in_one_file_is_small_or_one_cell) {
   }
 }
 
-TEST(Scrub, shortens_paths_and_leaves_what_is_none) {
-  const Scrub scrub({"/data/my runs/one", "/scenes"}, {"node7.example.org"}, {"ada"});
+TEST(PublishedTexts, ShowTheNamesOfFilesInPlaceOfPaths) {
   for (const auto& [text, shown] : std::vector<std::pair<std::string, std::string>>{
-           {"lobelia cost /srv/a/b.xml -o '/x y/cost' -q", "lobelia cost b.xml -o 'cost' -q"},
-           {"/data/my runs/one/cells/c.exr and /data/my runs/x.xml", "c.exr and x.xml"},
-           {"PATH=/usr/bin:/srv/u/bin", "PATH=bin:bin"},
-           {"-I/usr/include/x", "-Ix"},
-           {"file:///srv/u/a.xml", "file:a.xml"},
-           {"https://a.org/b/c", "https://a.org/b/c"},
-           {"</transform><a href=\"x/y/z\">", "</transform><a href=\"x/y/z\">"},
-           {"// a comment /* and */ 1/2 N.L/(a/b) m/s", "// a comment /* and */ 1/2 N.L/(a/b) m/s"},
-           {"../scenes/oblique_45.xml", "../scenes/oblique_45.xml"},
-           {"reference/data/x.png and W/data", "reference/data/x.png and W/data"},
-           {"cannot open /srv/u/x.", "cannot open x."},
-           {"-o /"
-            "Users/ada --blender ~ada/b/c, ~3 ms",
-            "-o ~ --blender c, ~3 ms"},
-           {"//srv/S/x +I/srv/S/a -isystem/srv/S/b \x1b[31m/srv/S/c", "x +Ia -isystemb \x1b[31mc"},
-           {"\"a\\n/srv/S/x\" …/srv/S/y →/srv/S/z", "\"a\\nx\" …y →z"},
-           {"ssh://ada@node9/srv/S file://node9/srv/S/x", "ssh:S file:x"},
-           {"see https://a.org/x/y?z=/a/b.", "see https://a.org/x/y?z=/a/b."},
-           {"+/-3/4 and / or /", "+/-3/4 and / or /"}})
-    EXPECT_EQ(scrub.without_paths(text), shown);
-  EXPECT_EQ(scrub.log("ada@node7 and node7.example.org, Nevada, pid 12, pid namespace"),
-            "user@host and host, Nevada, pid, pid namespace");
-  EXPECT_EQ(scrub.log("povray[4711]: PIDs 4711, ppid=3; process 2.5 GB, process 3 of 4, sphere[2]"),
-            "povray: PIDs, ppid; process 2.5 GB, process 3 of 4, sphere[2]");
+           {"lobelia cost /srv/a/b.xml -o '/x y/a b/cost' -q", "lobelia cost b.xml -o 'cost' -q"},
+           {"/opt/x/bin/povray +I'/srv/a b/c.pov' -I/usr/include/x", "povray +I'c.pov' -Ix"},
+           {"--out=/a/b/c.exr scenes/x.xml 1/2 https://a.org/b",
+            "--out=c.exr scenes/x.xml 1/2 https://a.org/b"},
+           {"-o /home/ada --cache /data/", "-o … --cache /data"}})
+    EXPECT_EQ(without_paths(text), shown);
 }
 
-TEST(Scrub, leaves_who_ran_it_and_where_out_of_records) {
-  const std::string shown = Scrub({}).record(
+TEST(PublishedTexts, KnowATextThatTellsAPath) {
+  for (const char* text : {"cannot open /srv/u/x.",
+                           "/srv/a b/c",
+                           "PATH=/usr/bin:/srv/u/bin",
+                           "a:/srv/u/bin",
+                           "file:///srv/u/a.xml",
+                           "-I/usr/include/x",
+                           "+I/srv/S/a",
+                           "-isystem/srv/S/b",
+                           "//srv/S/x",
+                           "\x1b[31m/srv/S/c",
+                           "\"a\\n/srv/S/x\"",
+                           "…/srv/y",
+                           "→/srv/z",
+                           "ssh://ada@node9/srv",
+                           "file://node9/srv/S/x",
+                           "/données/x",
+                           "--blender ~ada/b",
+                           "see ~/x",
+                           "ada@node7",
+                           "https://a.org/b and /srv/x",
+                           "{/srv/x",
+                           "see ,/srv/x"})
+    EXPECT_TRUE(tells_path(text)) << text;
+  for (const char* text :
+       {"https://a.org/b/c", "see https://a.org/x/y?z=/a/b.", "</transform><a href=\"x/y/z\"/>",
+        "// a comment /* and */ 1/2 N.L/(a/b) m/s", "../scenes/oblique_45.xml", "W/data",
+        "+/-3/4 and / or /", "(1 - s)^n/(n + 1), |a - b|/b, n s/(2 pi), 2^(-n/2) + n", "~3 ms",
+        "@param"})
+    EXPECT_FALSE(tells_path(text)) << text;
+}
+
+TEST(PublishedTexts, LeaveOutLinesThatTellOfTheMachine) {
+  const PublishedTexts texts({"node7.example.org"}, {"ada"});
+  const std::string log =
+      "by ada\non node7\npid 12\nppid=3\npovray[4711]: x\nin /srv/a/b\n"
+      "Nevada\npid namespace\nprocess 2.5 GB\nprocess 3 of 4, sphere[2]\nlast";
+  std::string shown;
+  for (int i = 0; i < 6; ++i) shown += std::string(kLeftOut) + "\n";
+  EXPECT_EQ(texts.lines(log), shown + log.substr(log.find("Nevada")));
+}
+
+TEST(PublishedTexts, LeaveOutWhoRanItAndWhere) {
+  const std::string shown = PublishedTexts().record(
       R"({"user": "ada", "pid": "4711", "host": {"name": "node7", "cores": "8"}})");
   for (const char* telling : {"ada", "4711", "node7"}) EXPECT_THAT(shown, Not(HasSubstr(telling)));
   EXPECT_THAT(shown, HasSubstr("cores"));
 }
 
-TEST(Scrub, keeps_values_of_an_axis_apart_and_a_broken_seal_broken) {
-  Scrub scrub({});
-  records::Axis axis{
-      "scene",
-      {{"/a/x.xml", ""}, {"/b/x.xml", ""}, {"x.xml", ""}, {"s /c/y.xml", ""}, {"s /d/y.xml", ""}}};
-  scrub.keep_apart({axis});
+/// A home directory in place of each text, whatever its key.
+TEST(PublishedTexts, HaveNoHomeInAnyTextOfARecord) {
+  const TelltaleFarm farm;
+  const std::string homes[] = {"/home/lovelace", "'/home/lovelace a/x.exr'", "~lovelace/x",
+                               "see /home/lovelace/x y/z", "file:///home/lovelace/x"};
+  int planted = 0;
+  for (const auto& [name, content] : files_below(farm.directory())) {
+    if (!name.ends_with(".json")) continue;
+    for (const std::string& home : homes) {
+      const auto told = records::with_texts(content, [&](auto, const std::string&) {
+        ++planted;
+        return std::optional(home);
+      });
+      ASSERT_TRUE(told) << name;
+      const std::string shown = PublishedTexts().record(*told);
+      for (const char* telling : {"lovelace", "/home"})
+        EXPECT_THAT(shown, Not(HasSubstr(telling))) << name << ": " << home;
+    }
+  }
+  EXPECT_GT(planted, 200);
+}
+
+TEST(PublishedTexts, KeepValuesOfAnAxisApartAndABrokenSealBroken) {
+  PublishedTexts texts;
+  records::Axis axis{"scene",
+                     {{"/a/p/x.xml", ""},
+                      {"/b/p/x.xml", ""},
+                      {"x.xml", ""},
+                      {"s /c/p/y.xml", ""},
+                      {"s /d/p/y.xml", ""}}};
+  texts.keep_apart({axis});
   records::Farm farm;
   farm.axes = {axis};
-  const std::string record = scrub.record(records::record_text(farm));
+  const std::string record = texts.record(records::record_text(farm));
   EXPECT_THAT(record, HasSubstr("\"x.xml 2\""));
   EXPECT_THAT(record, HasSubstr("\"x.xml 3\""));
   EXPECT_THAT(record, HasSubstr("\"s y.xml 2\""));
   records::Cell cell;
   cell.id = "a";
   cell.status = "pass";
-  cell.axes = {{"scene", "/c/y.xml"}};
+  cell.axes = {{"scene", "/a/p/x.xml"}};
   std::string text = records::record_text(cell);
   records::Origin origin;
-  EXPECT_THAT(scrub.record(text), HasSubstr("\"y.xml\""));
-  records::parse_record<records::Cell>(scrub.record(text), "", &origin);
+  EXPECT_THAT(texts.record(text), HasSubstr("\"x.xml 2\""));
+  records::parse_record<records::Cell>(texts.record(text), "", &origin);
   EXPECT_EQ(origin.seal, records::Origin::Seal::kFits);
   text.replace(text.find("pass"), 4, "diff");
-  EXPECT_THROW(records::parse_record<records::Cell>(scrub.record(text), ""), Error);
-  EXPECT_EQ(scrub.record("[[["), "[[[");
+  EXPECT_THROW(records::parse_record<records::Cell>(texts.record(text), ""), Error);
+  EXPECT_EQ(texts.record("[[["), "[[[");
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ void add_effect(const fs::path& tree) {
   effect.list("renderer/plan/effects/catalogue.hpp", "shadows.hpp\"\n",
               "#include \"renderer/plan/effects/throwaway.hpp\"\n");
   effect.list("renderer/plan/effects/catalogue.hpp", "effects::Ground", ", effects::Throwaway");
-  // What it does to rays is in one of the files there.
+  // One of the files there has its effect on rays.
   effect.list("renderer/waves/surfaces.cpp", "static constexpr Sphere kAnySphere{};\n",
               "  if (prepared.plan.on<effects::Throwaway>())\n"
               "    work.work.of<effects::Throwaway>() += wave.count;\n",

@@ -43,7 +43,7 @@ class GalleryScript : public ::testing::Test {
   std::string said, calls, told;
 };
 
-TEST_F(GalleryScript, says_where_the_gallery_is_whatever_failed_and_the_exit_code_tells_of_that) {
+TEST_F(GalleryScript, SaysWhereTheGalleryIsAndExitsWithTheWorstFailure) {
   struct Case {
     const char* what;
     int farm, gallery, cost, exit_code;
@@ -61,7 +61,7 @@ TEST_F(GalleryScript, says_where_the_gallery_is_whatever_failed_and_the_exit_cod
   }
 }
 
-TEST_F(GalleryScript, can_be_opened_after_the_farm_and_again_when_all_is_measured) {
+TEST_F(GalleryScript, MakesTheGalleryAfterTheFarmAndAgainWhenAllIsMeasured) {
   EXPECT_EQ(run(0), 0);
   const std::size_t first = calls.find("gallery|"), last = calls.rfind("gallery|");
   EXPECT_LT(calls.find("farm|"), first);
@@ -74,18 +74,18 @@ TEST_F(GalleryScript, can_be_opened_after_the_farm_and_again_when_all_is_measure
     EXPECT_THAT(told, HasSubstr("gallery: measuring " + std::string(measured) + "; about "));
 }
 
-TEST_F(GalleryScript, an_interrupted_farm_makes_no_gallery) {
+TEST_F(GalleryScript, MakesNoGalleryOfAnInterruptedFarm) {
   EXPECT_EQ(run(130), 130);
   EXPECT_THAT(said, Not(HasSubstr("index.html")));
 }
 
-TEST_F(GalleryScript, an_interrupted_view_leaves_the_gallery_of_the_farm) {
+TEST_F(GalleryScript, LeavesTheGalleryOfTheFarmIfAViewIsInterrupted) {
   EXPECT_EQ(run(0, 0, 130), 130);
   EXPECT_EQ(calls.find("gallery|"), calls.rfind("gallery|"));
   EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
 }
 
-TEST_F(GalleryScript, measures_what_the_views_show_where_it_is_not_there) {
+TEST_F(GalleryScript, MeasuresOnlyTheMissingFilesOfViews) {
   write(scratch_ / "a place/paper/paper.json", "{}");
   EXPECT_EQ(run(0), 0);
   EXPECT_THAT(calls, HasSubstr("models|--tables|"));

@@ -89,7 +89,7 @@ class Setup : public ::testing::Test {
   std::string said;
 };
 
-TEST_F(Setup, says_and_does_nothing_when_nothing_is_missing) {
+TEST_F(Setup, SaysAndDoesNothingWhenNothingIsMissing) {
   installed("compiler\nlibrary\npainter\nsculptor\n");
   write(scratch_ / "quiet", "");
   EXPECT_EQ(run("build engines"), 0);
@@ -97,7 +97,7 @@ TEST_F(Setup, says_and_does_nothing_when_nothing_is_missing) {
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
-TEST_F(Setup, looks_only_for_the_purposes_it_is_given) {
+TEST_F(Setup, LooksOnlyForThePurposesItIsGiven) {
   installed("compiler\nlibrary\n");
   EXPECT_EQ(run("build"), 0);
   EXPECT_EQ(said, "");
@@ -105,7 +105,7 @@ TEST_F(Setup, looks_only_for_the_purposes_it_is_given) {
   EXPECT_EQ(said, "");
 }
 
-TEST_F(Setup, installs_exactly_what_is_missing_and_says_why_first) {
+TEST_F(Setup, InstallsExactlyWhatIsMissingAndSaysWhyFirst) {
   installed("compiler\npainter\n");
   EXPECT_EQ(run("build engines"), 0);
   EXPECT_THAT(apt_calls(), ElementsAre("update", "install -y --no-install-recommends library",
@@ -116,7 +116,7 @@ TEST_F(Setup, installs_exactly_what_is_missing_and_says_why_first) {
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
-TEST_F(Setup, a_package_that_was_removed_but_left_its_settings_counts_as_missing) {
+TEST_F(Setup, CountsARemovedPackageThatLeftItsSettingsAsMissing) {
   installed("library\n");
   fake("dpkg-query", "echo 'compiler config-files'; echo 'library installed'");
   fake("id", "echo 1000");
@@ -124,7 +124,7 @@ TEST_F(Setup, a_package_that_was_removed_but_left_its_settings_counts_as_missing
   EXPECT_THAT(said, AllOf(HasSubstr("compiler"), Not(HasSubstr("library"))));
 }
 
-TEST_F(Setup, without_permission_it_names_the_packages_and_the_command_and_fails) {
+TEST_F(Setup, FailsWithoutPermissionAndNamesPackagesAndCommand) {
   installed("compiler\n");
   fake("id", "echo 1000");
   EXPECT_EQ(run("build engines"), 1);
@@ -138,7 +138,7 @@ TEST_F(Setup, without_permission_it_names_the_packages_and_the_command_and_fails
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
-TEST_F(Setup, a_user_with_sudo_installs_through_it) {
+TEST_F(Setup, InstallsThroughSudo) {
   fake("id", "echo 1000");
   fake("sudo", "while [[ ${1-} == -* ]]; do shift; done; [[ $1 == true ]] || \"$@\"");
   EXPECT_EQ(run("build"), 0);
@@ -146,7 +146,7 @@ TEST_F(Setup, a_user_with_sudo_installs_through_it) {
               ElementsAre("update", "install -y --no-install-recommends compiler library"));
 }
 
-TEST_F(Setup, without_apt_or_dpkg_it_names_the_packages_and_fails) {
+TEST_F(Setup, FailsWithoutAptOrDpkgAndNamesThePackages) {
   fs::remove(bin() / "apt-get");
   EXPECT_EQ(run("build"), 1);
   EXPECT_THAT(said, AllOf(HasSubstr("no apt-get"), HasSubstr("compiler"), HasSubstr("SETUP=no")));
@@ -155,7 +155,7 @@ TEST_F(Setup, without_apt_or_dpkg_it_names_the_packages_and_fails) {
   EXPECT_THAT(said, AllOf(HasSubstr("no dpkg-query"), HasSubstr("library")));
 }
 
-TEST_F(Setup, an_engine_that_cannot_be_had_is_a_warning_and_keeps_no_other_away) {
+TEST_F(Setup, WarnsOfAnEngineThatCannotBeHadAndInstallsTheOthers) {
   installed("compiler\nlibrary\n");
   unavailable("painter\n");
   EXPECT_EQ(run("build engines"), 0);
@@ -167,7 +167,7 @@ TEST_F(Setup, an_engine_that_cannot_be_had_is_a_warning_and_keeps_no_other_away)
   EXPECT_THAT(said, HasSubstr("going on without painter."));
 }
 
-TEST_F(Setup, an_engine_installed_another_way_counts) {
+TEST_F(Setup, CountsAnEngineThatWasInstalledAnotherWay) {
   installed("compiler\nlibrary\n");
   fake("painter", "");
   fake("sculptor", "");
@@ -175,13 +175,13 @@ TEST_F(Setup, an_engine_installed_another_way_counts) {
   EXPECT_EQ(said, "");
 }
 
-TEST_F(Setup, a_build_package_that_cannot_be_had_is_an_error) {
+TEST_F(Setup, FailsWithoutAPackageOfTheBuild) {
   unavailable("library\n");
   EXPECT_EQ(run("build engines"), 1);
   EXPECT_THAT(said, HasSubstr("could not install"));
 }
 
-TEST_F(Setup, a_failing_source_list_does_not_stop_it) {
+TEST_F(Setup, GoesOnAfterAFailingSourceList) {
   fake("apt-get", "echo \"$*\" >> '" + calls_file() +
                       "'; case \"$*\" in *update) exit 100;; esac; "
                       "for name in \"$@\"; do echo \"$name\" >> '" +
@@ -190,12 +190,12 @@ TEST_F(Setup, a_failing_source_list_does_not_stop_it) {
   EXPECT_THAT(said, HasSubstr("apt-get update failed"));
 }
 
-TEST_F(Setup, an_unknown_purpose_is_a_mistake) {
+TEST_F(Setup, RefusesAnUnknownPurpose) {
   EXPECT_EQ(run("biuld"), 2);
   EXPECT_THAT(said, HasSubstr("biuld"));
 }
 
-TEST_F(Setup, the_real_list_has_a_reason_for_every_package) {
+TEST_F(Setup, HasAReasonForEveryPackageOfTheRealList) {
   int packages = 0;
   for (const std::string& line :
        lines(read(fs::path(LOBELIA_SOURCE_DIR) / "scripts/packages.txt"))) {

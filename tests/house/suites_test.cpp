@@ -13,7 +13,6 @@
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -67,18 +66,10 @@ std::vector<std::string> of_no_test(const std::vector<LongTests>& entries,
   return lost;
 }
 
-TEST(Suites, name_tests_that_there_are) {
+TEST(Suites, NameTestsThatExist) {
   const auto entries = long_tests(read(kRoot / "tests/suites.txt"));
   EXPECT_GT(entries.size(), 10u);
   EXPECT_THAT(of_no_test(entries, tests_in(kRoot)), IsEmpty());
-}
-
-TEST(Suites, that_name_other_tests_are_found) {
-  const auto entries = long_tests(
-      "# A comment.\nfarm A.b:A.c* engines Because.\nfarm */P.b/povray:P.gone engines Because.\n"
-      "GalleryWeb cell:gone pages Because.\n");
-  EXPECT_THAT(of_no_test(entries, {"A.b", "A.cd", "P.b", "cell"}),
-              ElementsAre("farm P.gone", "GalleryWeb gone"));
 }
 
 /// The groups of long tests that scripts/change prints for these files.
@@ -88,7 +79,7 @@ std::string groups_of(const std::string& files) {
   return ran.output;
 }
 
-TEST(Suites, every_group_of_long_tests_is_called_for_by_some_change) {
+TEST(Suites, HaveEveryGroupCalledForBySomeChange) {
   const std::string table = read(kRoot / "scripts/change");
   for (const LongTests& entry : long_tests(read(kRoot / "tests/suites.txt")))
     EXPECT_TRUE(entry.group == "short" ||
@@ -96,7 +87,7 @@ TEST(Suites, every_group_of_long_tests_is_called_for_by_some_change) {
         << entry.group;
 }
 
-TEST(Suites, a_change_calls_for_what_it_can_break) {
+TEST(Suites, CallForTheGroupsThatAChangeCanBreak) {
   EXPECT_EQ(groups_of("docs/faq.md"), "cli docs python\n");
   EXPECT_EQ(groups_of("docs/mutants.md"), "docs\n");
   EXPECT_EQ(groups_of("tests/faults/inject"), "all_faults\n");
@@ -109,7 +100,7 @@ TEST(Suites, a_change_calls_for_what_it_can_break) {
   EXPECT_THAT(groups_of("'a new room/x.cpp'"), HasSubstr("whole"));
 }
 
-TEST(Suites, every_room_calls_for_something_of_its_own) {
+TEST(Suites, HaveAGroupForEveryRoom) {
   std::set<std::string> rooms;
   for (const fs::path& file : project_files(kRoot))
     if (is_cpp(file) && *file.begin() != "tests") rooms.insert(file.begin()->string());

@@ -1,4 +1,4 @@
-// Reading the source tree, and making small trees to prove that a check can fail.
+// Reading the source tree, and running programs in folders made for that.
 #pragma once
 
 #include <gtest/gtest.h>

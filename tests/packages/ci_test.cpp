@@ -1,4 +1,4 @@
-// What runs on machines that the tests do not have: the script inside, and the shape of the files around it.
+// Templates for machines that the tests do not have: the script inside, and the shape of the files around it.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -28,7 +28,7 @@ class CiScript : public testing::Test {
   }
 };
 
-TEST_F(CiScript, passes_and_fails_as_lobelia_compare) {
+TEST_F(CiScript, PassesAndFailsAsLobeliaCompare) {
   const Ran same = compare("a b 'the report'");
   EXPECT_EQ(same.exit_code, 0) << same.output;
   for (const char* file : {"the report/report.xml", "the report/index.html"})
@@ -46,14 +46,14 @@ TEST_F(CiScript, passes_and_fails_as_lobelia_compare) {
   EXPECT_EQ(compare("a b r --missing-reference notice").exit_code, 0);
 }
 
-TEST_F(CiScript, says_how_it_is_used) {
+TEST_F(CiScript, SaysHowItIsUsed) {
   const Ran ran = compare("a b");
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_THAT(ran.output, HasSubstr("RENDERS REFERENCES REPORT"));
   EXPECT_EQ(compare("missing b r").exit_code, 3);
 }
 
-TEST(Scripts, have_no_mistake_that_bash_or_shellcheck_finds) {
+TEST(Scripts, HaveNoMistakeThatBashOrShellcheckFinds) {
   // The commands of the Dockerfile, as a script.
   std::string docker = "#!/bin/sh\n";
   for (const std::string& line : house::lines(read(kRoot / "Dockerfile")))
@@ -74,7 +74,7 @@ TEST(Scripts, have_no_mistake_that_bash_or_shellcheck_finds) {
   }
 }
 
-TEST(Scripts, name_packages_that_are_made) {
+TEST(Scripts, NamePackagesThatAreMade) {
   const std::string docker = read(kRoot / "Dockerfile");
   static const std::regex package("/tmp/([a-z0-9]+)_\\*\\.deb");
   const std::string made = read(kBuild / "CPackConfig.cmake");
@@ -86,7 +86,7 @@ TEST(Scripts, name_packages_that_are_made) {
   EXPECT_EQ(count, 2);
 }
 
-TEST(Scripts, structured_files_are_well_formed) {
+TEST(Scripts, AreWellFormedWhereTheyAreStructured) {
   if (!has_program("python3")) GTEST_SKIP() << "python3 is not installed";
   const Ran json =
       run("python3 -m json.tool " + house::quoted(kRoot / ".devcontainer/devcontainer.json"));

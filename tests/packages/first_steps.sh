@@ -1,5 +1,5 @@
 #!/bin/sh
-# What a user does first with the installed packages: first_steps.sh PREFIX, in an empty directory.
+# A user's first steps with the installed packages: first_steps.sh PREFIX, in an empty directory.
 # The tutorial of the Python module needs matplotlib and pandas.
 set -eux
 prefix=$1

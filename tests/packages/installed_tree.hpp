@@ -12,7 +12,7 @@
 namespace packages {
 
 namespace fs = std::filesystem;
-/// Of the tree that is tested.
+/// The build directory of the tree that is tested.
 const fs::path kBuild = fs::path(LOBELIA_PROGRAM).parent_path().parent_path();
 
 using house::Ran;

@@ -37,7 +37,7 @@ void expect_example_works(const std::string& program) {
   EXPECT_THAT(missing.output, HasSubstr("missing.xml"));
 }
 
-TEST(Library, example_builds_by_cmake_and_runs) {
+TEST(Library, ExampleBuildsByCmakeAndRuns) {
   const InstalledTree& tree = installed_tree();
   fs::copy(kSource + "/examples/cpp", tree.work() / "example", fs::copy_options::recursive);
   const Ran built = tree.shell(
@@ -46,7 +46,7 @@ TEST(Library, example_builds_by_cmake_and_runs) {
   expect_example_works("'by cmake/highlight'");
 }
 
-TEST(Library, example_builds_by_pkg_config_and_runs) {
+TEST(Library, ExampleBuildsByPkgConfigAndRuns) {
   fs::copy_file(kSource + "/examples/cpp/highlight.cpp", installed_tree().work() / "example.cpp");
   // pkg-config escapes a path for the shell.
   const Ran built = installed_tree().shell(
@@ -58,7 +58,7 @@ TEST(Library, example_builds_by_pkg_config_and_runs) {
   expect_example_works(kLibraries + "LD_LIBRARY_PATH=$libraries ./by_pkg_config");
 }
 
-TEST(Library, header_includes_the_standard_library_alone) {
+TEST(Library, HeaderIncludesTheStandardLibraryAlone) {
   const fs::path headers = installed_tree().prefix() / "include/lobelia";
   static const std::regex include(R"re(#\s*include\s*([<"][^>"]+[>"]))re");
   int files = 0;
@@ -73,7 +73,7 @@ TEST(Library, header_includes_the_standard_library_alone) {
   EXPECT_EQ(files, 2);
 }
 
-TEST(Library, exports_its_own_names_alone) {
+TEST(Library, ExportsItsOwnNamesAlone) {
   const Ran ran = installed_tree().shell(
       kLibraries + "nm --dynamic --demangle --defined-only \"$libraries/liblobelia.so\"");
   ASSERT_EQ(ran.exit_code, 0) << ran.output;
@@ -91,7 +91,7 @@ TEST(Library, exports_its_own_names_alone) {
 }
 
 /// Compiled against the installed tree, because a test must not link our rooms and the library together.
-TEST(Library, reports_errors_and_judges_as_documented) {
+TEST(Library, ReportsErrorsAndJudgesAsDocumented) {
   write(installed_tree().work() / "contract.cpp", R"(
 #include <lobelia/lobelia.hpp>
 #include <cmath>

@@ -21,14 +21,14 @@ nlohmann::json compared(const std::string& folder, int exit_code) {
   return nlohmann::json::parse(read_file(directory.path() / "set.json", 16 << 20));
 }
 
-TEST(Pairs, ThatMustPassPassAtTheDefaultLimits) {
+TEST(Pairs, PassAtTheDefaultLimitsIfTheyMust) {
   const auto set = compared("must_pass", 0);
   EXPECT_GE(set["summary"]["pairs"], 12);
   for (const auto& pair : set["pairs"])
     EXPECT_EQ(pair["comparison"]["verdict"], "pass") << pair["name"];
 }
 
-TEST(Pairs, ThatMustFailFailAtTheDefaultLimitsEachOfThem) {
+TEST(Pairs, FailAtTheDefaultLimitsIfTheyMust) {
   const auto set = compared("must_fail", 1);
   EXPECT_GE(set["summary"]["pairs"], 29);
   EXPECT_EQ(set["summary"]["nonFinite"], 2);

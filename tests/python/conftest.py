@@ -1,4 +1,4 @@
-"""What the tests share."""
+"""Fixtures that the tests share."""
 
 import pathlib
 import subprocess
@@ -20,6 +20,13 @@ def scene():
 @pytest.fixture(scope="session")
 def image(scene):
     return lobelia.render(scene, width=96, height=96)
+
+
+@pytest.fixture
+def small_scene(scene, tmp_path):
+    file = tmp_path / "small.xml"
+    file.write_text(lobelia.scene_xml(scene, width=24, height=24))
+    return file
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""What needs pandas, matplotlib or Jupyter."""
+"""Tests that need pandas, matplotlib or Jupyter."""
 
 import os
 
@@ -27,36 +27,8 @@ def test_a_profile_is_a_dataframe_of_its_curve(image, scene):
     assert frame["a"].max() == pytest.approx(one.images["a"].peak, rel=0.05)
 
 
-def test_cost_is_a_dataframe_of_its_variants():
+def test_cost_is_a_dataframe_of_its_variants(small_scene):
     pytest.importorskip("pandas")
-    record = lobelia.cost(level="fixed-point", effort="quick")
-    frame = record.to_dataframe()
-    assert len(frame) == sum(len(table.ways) for table in record.tables)
-    assert {"table", "variant"} <= set(frame.columns)
-
-
-def test_plots_show_what_the_records_say(image, scene):
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("Agg")
-    import lobelia.plot
-
-    small = {"scene": scene, "width": 96, "height": 96}
-    one = lobelia.profile(image, scene=small, light=0)
-    ax = lobelia.plot.profile(one)
-    assert [line.get_label() for line in ax.lines] == [name for name in one.curve if name not in ("angleDegrees", "pixels")]
-    assert list(ax.lines[0].get_xdata()) == one.curve.angle_degrees
-    assert lobelia.plot.profile(lobelia.profile(image)).lines
-    assert lobelia.plot.profile(lobelia.profile(image, scene=small)).lines
-
-    record = lobelia.cost(level="fixed-point", effort="quick")
-    ax = lobelia.plot.front(record)
-    table = record.tables[0]
-    assert len(ax.lines[1].get_xdata()) == len(table.fronts[table.errors[0].id].ways)
-    with pytest.raises(lobelia.UsageError, match="allowed"):
-        lobelia.plot.front(record, table="none")
-    with pytest.raises(lobelia.UsageError, match="no tables"):
-        lobelia.plot.front(one)
-
     ax = lobelia.plot.difference(lobelia.compare(image, image * np.float32(1.1)))
     assert ax.images[0].get_array().shape == image.shape[:2]
 

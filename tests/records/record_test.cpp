@@ -16,9 +16,6 @@
 
 namespace lobelia::records {
 
-using testing::HasSubstr;
-using testing::StartsWith;
-
 constexpr std::string_view kColours[] = {"red", "green"};
 
 struct Part {
@@ -72,7 +69,7 @@ Sample sample() {
   return made;
 }
 
-/// What is said of the sample with another value at a place.
+/// The error for the sample with another value at a place.
 std::string refusal(const std::string& pointer, const Json& value) {
   Json json = as_json(sample());
   json[Json::json_pointer(pointer)] = value;
@@ -127,14 +124,14 @@ TEST(Records, SayWhereSomethingIsWrongAndWhatIsAllowed) {
   EXPECT_EQ(refusal("/parts/1/count", 3.0), "") << "a program may have no integers";
 }
 
-TEST(Records, OfAnyOtherTextAreRefused) {
+TEST(Records, AreRefusedFromAnyOtherText) {
   for (const char* text : {"", "{", "[]", "7", "null", R"({"kind":"sample"})", "{}{}"})
     EXPECT_THROW(parse_record<Sample>(text, "r.json"), Error) << text;
   std::string deep(100'000, '[');
   EXPECT_THROW(parse_record<Sample>(deep, "r.json"), Error);
 }
 
-TEST(Records, WithBytesThatAreNotUtf8AreStillWritten) {
+TEST(Records, AreWrittenThoughTheirBytesAreNotUtf8) {
   Sample made = sample();
   made.name = "caf\xe9";
   EXPECT_EQ(as_json(made)["name"], "caf\\xe9");

@@ -12,7 +12,7 @@
 namespace lobelia {
 namespace {
 
-/// What the engine's number format and precision leave, and no more.
+/// The error that the engine's number format and precision leave, and no more.
 struct Tolerance {
   double relative, of_peak;
 };
@@ -71,7 +71,7 @@ class Agreement : public WithRealEngine {
   }
 };
 
-TEST_P(Agreement, OfEveryModelWithEveryLobe) {
+TEST_P(Agreement, HoldsForEveryModelWithEveryLobe) {
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
   for (const char* name : {"cs12", "cs1024"}) lobes.push_back(*find_lobe(name));
   std::vector<NamedScene> scenes;
@@ -87,7 +87,7 @@ TEST_P(Agreement, OfEveryModelWithEveryLobe) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, OfEveryModelWithALobeByItsFormula) {
+TEST_P(Agreement, HoldsForEveryModelWithALobeByItsFormula) {
   // The last one has every function.
   constexpr const char* kFormulas[] = {
       "max(0, 1 - n*s/6)^6", "1/(1 + n*s/4)^4", "exp(-n*x^2/2)",
@@ -115,7 +115,7 @@ TEST_P(Agreement, OfEveryModelWithALobeByItsFormula) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, OfSchlicksFresnelFactorWhereItMattersMost) {
+TEST_P(Agreement, HoldsForSchlicksFactorWhereItMattersMost) {
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models())
     for (const double degrees : {45.0, 120.0}) {
@@ -125,7 +125,7 @@ TEST_P(Agreement, OfSchlicksFresnelFactorWhereItMattersMost) {
       scene.materials[0].specular_reflectance = {0.02, 0.5, 0};
       scenes.push_back({fmt::format("{} at {} degrees", model.name, degrees), scene});
     }
-  // What POV-Ray would shade by itself were it not for the factor.
+  // POV-Ray would shade this by itself, were it not for the factor.
   Scene grey = sphere_scene({"phong_rdf", "cosine", "exact", 20}, {directional_at(100)}, 64);
   grey.materials[0].specular_reflectance = 0.04 * kWhite;
   grey.materials[0].fresnel = Fresnel::kSchlick;
@@ -133,7 +133,7 @@ TEST_P(Agreement, OfSchlicksFresnelFactorWhereItMattersMost) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, OfALobeWiderThanAHemisphere) {
+TEST_P(Agreement, HoldsForALobeWiderThanAHemisphere) {
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models())
     for (const double exponent : {5.0, 0.01})
@@ -143,7 +143,7 @@ TEST_P(Agreement, OfALobeWiderThanAHemisphere) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, WhateverTheUnitsOfTheScene) {
+TEST_P(Agreement, HoldsInAllUnitsOfTheScene) {
   std::vector<NamedScene> scenes;
   const Scene scene = shadow_scene({"modified_phong", "cs16", "exact", 50},
                                    {point_light({2, 4, 8}), directional_at(30)}, 96);
@@ -152,7 +152,7 @@ TEST_P(Agreement, WhateverTheUnitsOfTheScene) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, OfPlanesAndCheckersAndLampsThatShineWithACosine) {
+TEST_P(Agreement, HoldsForPlanesCheckersAndLampsWithACosine) {
   const Light lamp = PointLight{{2.2, 3, 2.4}, {25, 20, 15}, normalize({-1, -1, -1})};
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models()) {
@@ -174,7 +174,7 @@ std::vector<Light> lamps_in_planes(Scene& scene) {
           PointLight{{1, -1, -4}, {9, 9, 9}}, PointLight{place, {2, 3, 2}}};
 }
 
-TEST_P(Agreement, OfLampsThatLieInPlanes) {
+TEST_P(Agreement, HoldsForLampsThatLieInPlanes) {
   std::vector<NamedScene> scenes;
   for (const char* model : {"phong_rdf", "modified_phong"})
     for (const Vec3 away : {Vec3{}, Vec3{3e3, -1e3, 2e3}}) {
@@ -185,7 +185,7 @@ TEST_P(Agreement, OfLampsThatLieInPlanes) {
   expect_agreement(scenes, kCheckerOutliers);
 }
 
-TEST_P(Agreement, OfRectanglesInPlanesOnTheSamePoints) {
+TEST_P(Agreement, HoldsForRectanglesInPlanesOnTheSamePoints) {
   Scene scene = ground_scene({"phong_rdf", "cosine", "exact", 20}, {}, 24);
   scene.lights = {RectangleLight{{-1, 0.7, -4}, {0.5, 0, 0}, {0, 0.5, 0}, {9, 6, 3}},
                   RectangleLight{{1.3, -1, 1}, {0, 0, 0.3}, {0.3, 0, 0}, {9, 6, 3}}};
@@ -201,7 +201,7 @@ TEST_P(Agreement, OfRectanglesInPlanesOnTheSamePoints) {
                   });
 }
 
-TEST_P(Agreement, OfMirrors) {
+TEST_P(Agreement, HoldsForMirrors) {
   std::vector<NamedScene> scenes;
   for (const char* model : {"phong_rdf", "blinn_phong_rdf"})
     scenes.push_back({model, mirror_scene({model, "cosine", "exact", 30},
@@ -219,7 +219,7 @@ TEST_P(Agreement, OfMirrors) {
   expect_agreement(scenes, 3 + kCheckerOutliers);
 }
 
-TEST_P(Agreement, OfEverySoftEffectOnTheSamePointsOfLightsLensAndPixel) {
+TEST_P(Agreement, HoldsForEverySoftEffectOnTheSamePoints) {
   const auto scenes = soft_scenes({"modified_phong", "cosine", "exact", 24}, 24);
   ReferenceOptions options;
   options.points = kReplicates;
@@ -231,7 +231,7 @@ TEST_P(Agreement, OfEverySoftEffectOnTheSamePointsOfLightsLensAndPixel) {
   });
 }
 
-TEST_P(Agreement, OfTheSmallestPictureAndOfWideOnes) {
+TEST_P(Agreement, HoldsForTheSmallestPictureAndForWideOnes) {
   const HighlightChoice choice{"modified_phong", "cosine", "exact", 8};
   Scene small = sphere_scene(choice, {directional_at(20)}, 4);
   Scene flat = sphere_scene(choice, {directional_at(20)}, 64);
@@ -253,7 +253,7 @@ TEST_P(Agreement, HoldsForAFilmAsideInAWideAndInATallPicture) {
   expect_agreement({{"wide", wide}, {"tall", tall}});
 }
 
-TEST_P(Agreement, SceneWithoutLightIsBlack) {
+TEST_P(Agreement, HoldsForASceneWithoutLight) {
   const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 8}, {}, 16);
   int results = 0;
   render_all(*engine_, std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {

@@ -42,7 +42,7 @@ void expect_agreement(const std::string& name, const Scene& scene) {
   EXPECT_LE(on_edges, 9) << "three pixels";
 }
 
-TEST(Analytic, AndWeAgreeCloseToAHighlightThatAMirrorPlaneShowsToo) {
+TEST(Analytic, AgreesWithUsCloseToAHighlightThatAMirrorShowsToo) {
   for (const ModelInfo& model : models())
     for (const char* lobe : {"cosine", "cs16", "cs64", "schlick", "gauss", "spherical_gaussian"})
       for (const double n : {16.0, 1024.0, 1e6})
@@ -67,7 +67,7 @@ Scene hall_of_lamps_on_surfaces(double aside, double scale, Vec3 away) {
   return moved(scene, scale, away);
 }
 
-TEST(Analytic, AndWeAgreeOnLampsOnSurfacesAndAHairBesideThem) {
+TEST(Analytic, AgreesWithUsOnLampsOnSurfacesAndAHairBesideThem) {
   for (const double scale : {1e-3, 1.0, 1e4})
     for (const Vec3 away : {Vec3{}, Vec3{1e4, 3e4, -2e4}})
       for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
@@ -75,7 +75,7 @@ TEST(Analytic, AndWeAgreeOnLampsOnSurfacesAndAHairBesideThem) {
                          hall_of_lamps_on_surfaces(aside, scale, away));
 }
 
-TEST(Analytic, InItsFinerArithmeticRoundsToTheSamePictureButForLastDigits) {
+TEST(Analytic, GivesTheSamePictureInItsFinerArithmeticButForLastDigits) {
   const Scene scene = hall_scene(kChoice, 16);
   ReferenceOptions fine;
   fine.fine = true;

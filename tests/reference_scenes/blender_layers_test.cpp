@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 
 #include "core/contained_reader.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -60,12 +60,8 @@ TEST_F(BlenderLayers, AreFoundByTheNamesThatPeopleUse) {
                                       {"diffuse_direct", "ViewLayer.DiffDir.G"},
                                       {"GlossDir", "ViewLayer.GlossDir.G"}})
     EXPECT_THAT(read_picture(path, name).source.channels, Contains(channel)) << name;
-  try {
-    read_picture(path, "difuse");
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("there are 'ViewLayer.DiffDir'"));
-  }
+  EXPECT_THAT(error_words(ExitCode::kInput, [&] { read_picture(path, "difuse"); }),
+              HasSubstr("there are 'ViewLayer.DiffDir'"));
 }
 
 }  // namespace

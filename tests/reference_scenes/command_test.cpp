@@ -36,7 +36,7 @@ class ReferenceCommand : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ReferenceCommand, WhatItCannotDoHasItsExitCodeAndReason) {
+TEST_F(ReferenceCommand, HasAnExitCodeAndAReasonForWhatItCannotDo) {
   struct {
     std::vector<std::string> options;
     int exit_code;

@@ -25,7 +25,7 @@ using truth::Digits;
 constexpr HighlightChoice kPhong{"phong_rdf", "cosine", "exact", 9};
 
 std::vector<Rgb> picture(const Scene& scene) { return truth::evaluate(scene, Digits::kDouble); }
-/// Of an odd film.
+/// The middle pixel of an odd film.
 Rgb middle(const Scene& scene) {
   const auto all = picture(scene);
   return all[all.size() / 2];
@@ -129,7 +129,7 @@ double difference(Rgb a, Rgb b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-TEST(Evaluation, InDoubleIsThatIn50Digits) {
+TEST(Evaluation, IsTheSameInDoubleAsIn50Digits) {
   double worst = 0;
   std::string where;
   std::size_t number = 0;
@@ -158,7 +158,7 @@ TEST(Evaluation, InDoubleIsThatIn50Digits) {
   EXPECT_LT(worst, 3e-9) << where;  // measured: 5.9e-10, at n = 1e6
 }
 
-TEST(Evaluation, InDoubleHoldsInTheHardCasesOfSizeAndDistance) {
+TEST(Evaluation, HoldsInDoubleForTheHardCasesOfSizeAndDistance) {
   double worst = 0;
   for (const auto& hard : stability::hard_scenes())
     for (Scene scene : stability::close_to_highlight(hard.scene, 1e6)) {
@@ -214,7 +214,7 @@ TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
   EXPECT_GT(ring_size(scene), 8);
 }
 
-TEST(EdgeRing, OfASphereLitFromTheCameraIsOneAboutItsSilhouette) {
+TEST(EdgeRing, RunsAboutTheSilhouetteOfASphereLitFromTheCamera) {
   Scene scene = canonical_scene("head_on");
   scene.film = {128, 128};
   const auto edges = truth::edge_ring(scene);

@@ -96,7 +96,7 @@ TEST_P(FakeEngine, SaysThatItIsMissingOrAnotherProgram) {
               HasSubstr("does not answer --version"));
 }
 
-TEST_P(FakeEngine, OfAVersionThatCannotBeDrivenIsRefusedWithThatAndTheOnesThatCan) {
+TEST_P(FakeEngine, IsRefusedWithItsVersionAndThoseThatCanBeDriven) {
   const bool povray = GetParam() == "povray";
   const std::string answer = povray ? "POV-Ray " : "Blender ";
   for (const std::string version :
@@ -121,7 +121,7 @@ TEST_P(FakeEngine, ComplaintIsInTheErrorInOneLineAndInTheLog) {
               HasSubstr(GetParam() == "povray" ? "wrote no picture" : "rendered nothing"));
 }
 
-TEST_P(FakeEngine, ThatWasTooSlowToStartItsThreadsIsStartedAgain) {
+TEST_P(FakeEngine, IsStartedAgainIfItsThreadsWereTooSlowToStart) {
   if (GetParam() != "povray") GTEST_SKIP() << "POV-Ray alone gives up on itself";
   const ReferenceResult third = failed(
       "echo >> starts; if [ $(wc -l < starts) -lt 3 ]; then\n"
@@ -203,7 +203,7 @@ TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsClassAndItsLogAndNothingEl
   for (auto& one : all) one.get();
 }
 
-TEST_P(FakeEngine, ThatIsTakenAwayMeanwhileIsMissing) {
+TEST_P(FakeEngine, IsMissingIfItIsTakenAwayMeanwhile) {
   const fs::path path = program(second_scene(":"));
   const auto engine = make_engine(GetParam(), path);
   ASSERT_TRUE(engine->status().available());
@@ -337,7 +337,7 @@ TEST_P(FakeBlender, RendersManyScenesInFewProcessesAndTellsWhatEachTook) {
   EXPECT_THAT(first_ones, testing::AllOf(testing::Ge(1u), testing::Le(2u)));
 }
 
-TEST_P(FakeBlender, ThatDiesCostsOneSceneAndTheOthersGoOnInANewOne) {
+TEST_P(FakeBlender, CostsOneSceneWhenItDiesAndGoesOnInANewProcess) {
   // In the middle of a scene; and between two, when the next is in nobody's hands.
   std::map<FailureClass, int> ends;
   for (const auto& [scene, result] :
@@ -352,13 +352,13 @@ TEST_P(FakeBlender, ThatDiesCostsOneSceneAndTheOthersGoOnInANewOne) {
                                                   Pair(kTimedOut, 1), Pair(kExitCode, 1)));
 }
 
-TEST_P(FakeBlender, ThatDiesBetweenTwoScenesIsNoneOfTheirFailures) {
+TEST_P(FakeBlender, FailsNoSceneIfItDiesBetweenTwo) {
   // It asks for more, and is gone when that comes.
   const fs::path path = goes_on("trap 'kill -SEGV $$' EXIT; [ $count = 2 ] && exec 0</dev/null");
   for (const auto& [scene, result] : results_of(path, 20)) EXPECT_EQ(result.error, "") << scene;
 }
 
-TEST_P(FakeBlender, ThatNeverComesToASceneIsNotStartedForEach) {
+TEST_P(FakeBlender, IsNotStartedForEachSceneIfItReachesNone) {
   int starts = 0;
   for (const auto& [scene, result] : results_of(program("echo started; kill -SEGV $$"), 60)) {
     EXPECT_EQ(result.failure, FailureClass::kCrash) << scene;

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <set>
 
 #include "core/image.hpp"
 #include "records/scene.hpp"
@@ -29,13 +27,11 @@ TEST(SceneFormats, HoldTheExamplesOrSayWhyNot) {
       {"effects/area_light", "mitsuba", "it has a plane,"},
       {"effects/depth_of_field", "povray", "its picture is the average of many of POV-Ray"},
       {"effects/crowd", "povray", "the scene has 10164 spheres"},
-      {"effects/environment_map", "gltf-lights", "it has a light with a size"},
-      {"effects/mirrors", "gltf-lights", "it has a checker"},
   };
   for (const auto& [scene, format, why] : refusals)
     EXPECT_THAT(scene_format(format).why_not(canonical_scene(scene)), testing::StartsWith(why))
         << scene << " as " << format;
-  for (const char* format : {"lobelia", "json", "blender-python", "povray", "gltf-lights"})
+  for (const char* format : {"lobelia", "json", "blender-python", "povray"})
     EXPECT_EQ(scene_format(format).why_not(canonical_scene("two_spheres")), "") << format;
   for (const char* format : {"lobelia", "json", "blender-python"})
     for (const char* scene : {"effects/area_light", "effects/crowd", "effects/depth_of_field",
@@ -160,130 +156,6 @@ TEST(JsonFormat, IsTheRecordOfTheSchemaAndReadsBackNumberForNumber) {
         return "a coefficient has lost digits";
     return "";
   });
-}
-
-// ---- glTF ---------------------------------------------------------------------------------------
-
-std::string bytes_of(const std::string& uri) {
-  const std::string head = "data:application/octet-stream;base64,";
-  EXPECT_TRUE(uri.starts_with(head));
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : uri.substr(head.size())) {
-    if (c == '=') break;
-    bits = bits << 6 | std::uint32_t(digits.find(c));
-    count += 6;
-    if (count >= 8) bytes += char(bits >> (count -= 8) & 255);
-  }
-  return bytes;
-}
-
-/// The numbers of an accessor.
-template <class T>
-std::vector<T> numbers(const Json& gltf, int accessor) {
-  const Json& a = gltf["accessors"][std::size_t(accessor)];
-  const Json& view = gltf["bufferViews"][a["bufferView"].get<std::size_t>()];
-  const std::string bytes = bytes_of(gltf["buffers"][0]["uri"]);
-  EXPECT_EQ(bytes.size(), gltf["buffers"][0]["byteLength"]);
-  const std::size_t offset = view["byteOffset"], length = view["byteLength"];
-  EXPECT_EQ(offset % 4, 0u);
-  EXPECT_LE(offset + length, bytes.size());
-  std::vector<T> values(length / sizeof(T));
-  std::memcpy(values.data(), bytes.data() + offset, length);
-  EXPECT_EQ(values.size(), a["count"].get<std::size_t>() * (a["type"] == "VEC3" ? 3 : 1));
-  return values;
-}
-
-TEST(GltfFormat, HasMeshesLightsAndCameraInTheirPlaces) {
-  Scene scene = shadow_scene({"blinn_phong_ndf", "cosine", "exact", 64},
-                             {directional_at(45, {1, 2, 4}), point_light()}, 64);
-  scene.planes.push_back({{0, -1, 0}, {0, 1, 0}, 1, 1});
-  const Json gltf = Json::parse(scene_format("gltf-lights").write(scene).at("scene.gltf"));
-  EXPECT_EQ(gltf["asset"]["version"], "2.0");
-  // Every node is shown, once.
-  std::set<int> shown;
-  for (const Json& node : gltf["scenes"][0]["nodes"])
-    EXPECT_TRUE(shown.insert(node.get<int>()).second);
-  EXPECT_EQ(shown.size(), gltf["nodes"].size());
-  int meshes = 0, lights = 0, cameras = 0;
-  for (const Json& node : gltf["nodes"]) {
-    if (node.contains("mesh")) {
-      ++meshes;
-      ASSERT_LT(node["mesh"].get<std::size_t>(), gltf["meshes"].size());
-    }
-    if (node.contains("camera")) ++cameras;
-    if (node.contains("matrix")) {
-      const std::array<double, 16> m = node["matrix"];
-      const V x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
-      EXPECT_NEAR(times(x, y), 0, 1e-9 * times(x, x));
-      EXPECT_NEAR(times(y, z), 0, 1e-9 * times(x, x));
-      EXPECT_GT(x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0]) +
-                    x[2] * (y[0] * z[1] - y[1] * z[0]),
-                0);
-    }
-    if (!node.contains("extensions")) continue;
-    const auto which = node["extensions"]["KHR_lights_punctual"]["light"].get<std::size_t>();
-    const Json& light = gltf["extensions"]["KHR_lights_punctual"]["lights"][which];
-    ++lights;
-    if (light["type"] == "point") {
-      EXPECT_EQ(node["translation"].get<V>(), (V{2, 1.5, 3}));
-      EXPECT_EQ(light["intensity"], 10);
-      continue;
-    }
-    EXPECT_EQ(light["intensity"], 4);
-    EXPECT_EQ(light["color"].get<V>(), (V{0.25, 0.5, 1}));
-    const Vec3 direction = std::get<DirectionalLight>(scene.lights[0]).direction;
-    const std::array<double, 16> m = node["matrix"];
-    EXPECT_NEAR(-m[8], direction.x, 1e-12);
-    EXPECT_NEAR(-m[9], direction.y, 1e-12);
-    EXPECT_NEAR(-m[10], direction.z, 1e-12);
-  }
-  EXPECT_EQ(meshes, 3);
-  EXPECT_EQ(lights, 2);
-  EXPECT_EQ(cameras, 1);
-}
-
-TEST(GltfFormat, HasSpheresOfUnitRadiusThatFaceOutwards) {
-  const Json gltf = Json::parse(
-      scene_format("gltf-lights").write(canonical_scene("oblique_45")).at("scene.gltf"));
-  const Json& primitive = gltf["meshes"][0]["primitives"][0];
-  const auto positions = numbers<float>(gltf, primitive["attributes"]["POSITION"]);
-  const auto normals = numbers<float>(gltf, primitive["attributes"]["NORMAL"]);
-  const auto indices = numbers<std::uint16_t>(gltf, primitive["indices"]);
-  const auto at = [&](std::size_t i) {
-    return V{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-  };
-  for (std::size_t i = 0; i < positions.size() / 3; ++i) EXPECT_NEAR(times(at(i), at(i)), 1, 1e-6);
-  EXPECT_EQ(positions, normals);
-  ASSERT_EQ(indices.size() % 3, 0u);
-  for (std::size_t i = 0; i < indices.size(); i += 3) {
-    ASSERT_LT(indices[i], positions.size() / 3);
-    const V a = at(indices[i]), b = plus(-1, a, at(indices[i + 1])),
-            c = plus(-1, a, at(indices[i + 2]));
-    const V outwards{b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2],
-                     b[0] * c[1] - b[1] * c[0]};
-    EXPECT_GT(times(outwards, a), 0) << "triangle " << i / 3;
-  }
-  const Json& accessor = gltf["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
-  EXPECT_EQ(accessor["min"].get<V>(), (V{-1, -1, -1}));
-  EXPECT_EQ(accessor["max"].get<V>(), (V{1, 1, 1}));
-}
-
-TEST(GltfFormat, StatesRoughnessByItsRuleAndTheExactModelInExtras) {
-  for (const auto& [model, exponent_of_normals] :
-       {std::pair("blinn_phong_ndf", 64.0), std::pair("phong_rdf", 256.0)}) {
-    const Scene scene = sphere_scene({model, "cs16", "exact", 64}, {directional_at(30)}, 32);
-    const Json gltf = Json::parse(scene_format("gltf-lights").write(scene).at("scene.gltf"));
-    const Json& material = gltf["materials"][0];
-    const double roughness = material["pbrMetallicRoughness"]["roughnessFactor"];
-    EXPECT_NEAR(std::pow(roughness, 4), 2 / (exponent_of_normals + 2), 1e-12);
-    EXPECT_EQ(material["extras"]["model"], model);
-    EXPECT_EQ(material["extras"]["lobe"], "cs16");
-    EXPECT_EQ(material["extras"]["coefficient"],
-              radiance_coefficient(scene.materials[0].highlight));
-  }
 }
 
 // ---- Blender ------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-// What is kept of an engine's input, given to the real engine by the kept command alone.
+// The kept input of an engine, given to the real engine by the kept command alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

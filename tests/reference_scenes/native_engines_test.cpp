@@ -186,7 +186,7 @@ class FakeNativeEngine : public testing::TestWithParam<std::string> {
   TemporaryDirectory directory_;
 };
 
-TEST_P(FakeNativeEngine, ThatIsMissingOrOfAnotherVersionSaysSo) {
+TEST_P(FakeNativeEngine, SaysThatItIsMissingOrOfAnotherVersion) {
   EXPECT_EQ(engine("echo Nothing; exit 69")->status().state, EngineState::kAbsent);
   EXPECT_EQ(engine("exit 3")->status().state, EngineState::kBroken);
   const auto other = engine(fmt::format("echo '{} 77.1'", name()));

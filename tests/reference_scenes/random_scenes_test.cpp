@@ -27,7 +27,7 @@ Scene told_by_formulas(Scene scene) {
   return scene;
 }
 
-/// Of each pixel, what its highlights would be with every lobe at its peak, and how much of it a precision may
+/// For each pixel, the sum of its highlights with every lobe at its peak, and how much of it a precision may
 /// be off by.
 struct PixelPeaks {
   std::vector<double> peak, allowed;
@@ -108,7 +108,7 @@ TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
   EXPECT_GT(600 * lit, 2000 * scenes);
 }
 
-TEST(RandomScenes, InEachPrecisionAreWithinItsBoundOfTheSameInFloat64) {
+TEST(RandomScenes, AreWithinEachPrecisionsBoundOfFloat64) {
   int tight = 0;
   double closest = 0;
   expect_of_random_scenes(SceneKind::kExact, 1200, [&](const Scene& random_one, Random&) {

@@ -59,7 +59,7 @@ TEST(Replicates, AreTheSameForTheSameSeedAndOthersForAnother) {
   EXPECT_NE(first_light(1), first_light(2));
 }
 
-TEST(Replicates, WhereOnlyLightsVaryAreOnePictureEachWithAllLamps) {
+TEST(Replicates, ShowAllLampsInOnePictureWhereOnlyLightsVary) {
   const auto scenes = soft_scenes({"phong_rdf", "cosine", "exact", 8}, 8);
   const auto lamps = replicates(scenes[1].scene, 2, 5, 0);
   ASSERT_EQ(lamps.size(), 2u);

@@ -201,7 +201,7 @@ Scene random_scene(std::uint64_t seed) {
   return scene;
 }
 
-TEST(Antialiasing, OfChosenPixelsIsThatOfAllWithinItsThresholdForEveryFilter) {
+TEST(Antialiasing, GivesChosenPixelsTheValuesOfAllWithinItsThreshold) {
   constexpr int kScenes = 4;
   std::uint64_t seed = 0;
   for (const Filter filter : some_of(all_filters())) {

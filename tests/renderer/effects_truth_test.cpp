@@ -74,7 +74,7 @@ TEST(WhiteFurnace, AMattSphereUnderAnEvenSkyIsItsAlbedoTimesTheSky) {
   EXPECT_NEAR(mean(with_all(scene).image), 1.4, 1e-2);
 }
 
-TEST(WhiteFurnace, WithInterReflectionIsWhiteBetweenWhiteSpheresToo) {
+TEST(WhiteFurnace, IsWhiteBetweenWhiteSpheresWithInterReflection) {
   Scene scene = one_sphere(matt(1));
   scene.spheres.push_back({{1.5, 0.5, 1}, 1, 0});
   scene.spheres.push_back({{-1.5, 0, 1}, 1, 0});
@@ -126,7 +126,7 @@ TEST(Environment, IsSeenBesideTheSphereAndInAMirror) {
   EXPECT_EQ(image.pixel(8, 8)[2], 0.5f);
 }
 
-TEST(Environment, WithASmallSunIsADirectionalLight) {
+TEST(Environment, IsADirectionalLightWithASmallSun) {
   // One bright pixel around the direction to the sun; what is interpolated beside it adds to its size.
   Scene scene = one_sphere(matt(0.5));
   scene.camera.fov_degrees = 28;
@@ -146,7 +146,7 @@ TEST(Environment, WithASmallSunIsADirectionalLight) {
 
 // ---- planes, mirrors, lenses
 
-TEST(Mirror, OfSeveralReflectionsFallsAsAPowerOfTheReflectance) {
+TEST(Mirror, FallsAsAPowerOfTheReflectanceOverReflections) {
   // Between two parallel mirrors a ray that goes straight at one meets a lamp after n reflections.
   Scene scene;
   scene.camera = {{0, 0, 0}, {0, 0.05, -1}, {0, 1, 0}, 0.01};

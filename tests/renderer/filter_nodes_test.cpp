@@ -43,7 +43,7 @@ TEST(FilterNodes, GiveTheMeanOfAHighlightWithEveryFilter) {
   }
 }
 
-TEST(FilterNodes, OfEveryFilterAreFewAndSumToOne) {
+TEST(FilterNodes, AreFewAndSumToOneForEveryFilter) {
   for (const std::string_view name : filter_names())
     for (const double radius : {0.1, 0.5, 2.0, 16.0}) {
       Filter filter = find_filter(name).value();

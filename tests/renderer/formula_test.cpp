@@ -104,7 +104,7 @@ TEST(Formula, IsReadBackAsItIsWritten) {
   EXPECT_EQ(Formula("(-2)^2*--c").text(), "(-2)^2 * --c");
 }
 
-TEST(Formula, OfTheLargestSizeIsReadBack) {
+TEST(Formula, IsReadBackAtTheLargestSize) {
   std::string deep, wide = "1.2345678901234567e-29", signs;
   for (int i = 0; i < kMaxFormulaDepth - 2; ++i) signs += "-";
   for (int i = 0; i < 19; ++i) deep += "sin(";

@@ -20,7 +20,7 @@ class Infix {
     return Infix(text, names).run();
   }
 
-  /// Of statements "float NAME = ...;" and at last "return ...;".
+  /// The value of statements "float NAME = ...;" and at last "return ...;".
   static double value_of_body(std::string_view body, Names names) {
     for (;;) {
       const std::size_t end = body.find(';');

@@ -1,4 +1,4 @@
-// What lights with a size draw, against what a ray meets of them.
+// Draws from lights with a size, against what a ray meets of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -134,7 +134,7 @@ TEST(SphereLight, DrawsEvenlyFromTheConeThatItFills) {
     expect_same_light(light, point, 3e-3);
 }
 
-TEST(SphereLight, OfAnySizeAndDistanceFillsItsSolidAngle) {
+TEST(SphereLight, FillsItsSolidAngleAtAnySizeAndDistance) {
   for (const double radius : {1e-9, 1e-3, 1.0, 1e6})
     for (const double ratio : {1 + 1e-9, 1.5, 1e3, 1e7}) {
       const OneByOne light(SphereLight{{0, 0, 0}, radius, {1, 1, 1}});
@@ -213,7 +213,7 @@ TEST(EnvironmentImage, DrawsInProportionToItsBrightnessBetweenThePixelsToo) {
   }
 }
 
-TEST(EnvironmentImage, OfOnePixelOrBlackOrEvenIsNoSpecialCase) {
+TEST(EnvironmentImage, MayBeOfOnePixelBlackOrEven) {
   const auto even = [](int, int) { return 2.0f; };
   const EnvmapTable one = with_image(1, 1, even);
   EXPECT_NEAR(one.look({0.6, 0.8, 0}).radiance().g, 2, 1e-6);
@@ -238,7 +238,7 @@ TEST(SmoothLuminance, LeavesAtMostFourTimesTheMeanOfWhatIsBelowIt) {
   });
   EXPECT_GT(with_sun, 1);
   EXPECT_LT(with_sun, 2.2);
-  // What fills too little of the sky is drawn as a whole.
+  // A patch that fills too little of the sky is drawn as a whole.
   EXPECT_LT(smooth([](int x, int y) { return x < 4 && y == 9 ? 1.0f : 0.0f; }), 1e-3);
 }
 

@@ -1,4 +1,4 @@
-// What lobes and models cost in arithmetic, against a count by hand.
+// The arithmetic of lobes and models, against a count by hand.
 #include <gtest/gtest.h>
 
 #include "renderer/operation_count.hpp"
@@ -6,7 +6,7 @@
 namespace lobelia {
 namespace {
 
-TEST(OperationCount, OfCsIsLog2OfKSquaringsWhereKIsAPowerOfTwo) {
+TEST(OperationCount, CountsLog2OfKSquaringsForCsK) {
   int squarings = 1;
   for (const int k : {2, 4, 8, 16, 32, 64, 128})
     EXPECT_EQ(operations(*find_lobe("cs" + std::to_string(k))).multiply, 1 + squarings++) << k;
@@ -16,7 +16,7 @@ TEST(OperationCount, OfCsIsLog2OfKSquaringsWhereKIsAPowerOfTwo) {
   EXPECT_EQ(operations(*find_lobe("cs16")), (OperationCount{5, 1, 0, 0, 0, 1}));
 }
 
-TEST(OperationCount, OfEveryLobeAndModelIsNotNothing) {
+TEST(OperationCount, CountsSomethingForEveryLobeAndModel) {
   for (const LobeId& lobe : all_lobes()) EXPECT_GT(operations(lobe).multiply, 0);
   for (const ModelId model : all_models()) {
     const OperationCount count = operations(model);

@@ -101,7 +101,7 @@ TEST(Plan, RefusesHalfFloatsForAnExponentThatTheyDoNotHave) {
   EXPECT_THROW(plan_for(65505), Error);
 }
 
-TEST(Plan, NeedsNoShadowsOfOneSphereNorBesideThePathOfALightOrBehindItNorOfOneThatDoesNotShine) {
+TEST(Plan, NeedsNoShadowsWhereNoSphereIsBetween) {
   Scene beside = canonical_scene("two_spheres"), dark = beside,
         behind = canonical_scene("point_light");
   beside.spheres[1].center = {2, -2, 0};

@@ -142,7 +142,7 @@ void scale(Scene& scene, double by) {
   }
 }
 
-/// What the scene's text reads back as. The text has no pictures.
+/// The scene that the scene's text reads back as. The text has no pictures.
 Scene as_written(Scene scene) {
   std::vector<bool> pictures;
   for (Light& any : scene.lights) {
@@ -363,7 +363,7 @@ void expect_of_random_scenes(SceneKind kind, int count, const SceneLaw& law) {
   const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
   std::uint64_t seed = first;
   for (; seed < first + std::uint64_t(count) || Clock::now() < end; ++seed) {
-    // What the law draws is the same for each scene that comes of the seed.
+    // The law draws the same numbers for each scene that comes of the seed.
     const auto wrong = [&](const Scene& scene) {
       Random random(~seed);
       return law(scene, random);

@@ -27,7 +27,7 @@ float brightest(const Scene& scene) {
   return *std::max_element(image.values().begin(), image.values().end());
 }
 
-TEST(Remarks, OfAnOrdinarySceneAreNone) {
+TEST(Remarks, AreNoneForAnOrdinaryScene) {
   Scene scene = plain();
   EXPECT_THAT(remarks(scene), IsEmpty());
   EXPECT_GT(brightest(scene), 1);
@@ -73,7 +73,7 @@ TEST(Remarks, SayOfASceneWithoutShapesThatItsLightsAreLeftToSee) {
   EXPECT_EQ(brightest(scene), 0.5f);
 }
 
-TEST(Remarks, OfACameraOnASphereSayThatItDoesNotSeeItAndThePictureIsBlackWhateverItsRounding) {
+TEST(Remarks, SayThatACameraOnASphereDoesNotSeeIt) {
   Scene scene = plain();
   for (int i = 0; i < 200; ++i) {
     const double up = std::sin(0.01 * i), across = std::cos(0.01 * i);

@@ -20,7 +20,7 @@ Scene canonical(const std::string& name, int width = 96, int height = 96) {
   return scene;
 }
 
-TEST(Render, OfOneSampleIsTheSameBitForBitWhateverTheNumberOfThreads) {
+TEST(Render, IsTheSameBitForBitInAnyNumberOfThreads) {
   for (const char* name : {"oblique_45", "point_light", "two_spheres"}) {
     const Scene scene = canonical(name, 301, 230);
     ASSERT_GT(std::size_t(scene.film.width * scene.film.height), kPixelsOfOneThread)

@@ -58,7 +58,7 @@ TEST(Rounds, TakeNoMoreSamplesThanAllowed) {
   EXPECT_GT(*result.error, 1e-9);
 }
 
-TEST(Rounds, OfOneSampleKnowNoErrorAndATimeLimitGivesNoMoreSamplesThanTheScene) {
+TEST(Rounds, KnowNoErrorOfOneSampleAndExceedNoSamplesOfTheScene) {
   RenderOptions options;
   options.target_error = 1e-9;
   options.max_samples = 1;
@@ -90,7 +90,7 @@ TEST(Rounds, StopWhenTheTimeIsUp) {
   EXPECT_NE(result.stop_reason.find("time limit"), std::string::npos) << result.stop_reason;
 }
 
-TEST(Rounds, OfAPictureWithNothingRandomIsOne) {
+TEST(Rounds, AreOneForAPictureWithNothingRandom) {
   Scene scene = noisy();
   scene.sampler.sample_count = 1;
   scene.lights = {DirectionalLight{normalize({-1, -2, -1}), {1, 1, 1}}};

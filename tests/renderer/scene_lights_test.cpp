@@ -48,7 +48,7 @@ class EnvironmentMap : public testing::Test {
   TemporaryDirectory outside_;
 };
 
-TEST_F(EnvironmentMap, ThatUnpacksToFarMoreThanItsFileIsRefusedBeforeThat) {
+TEST_F(EnvironmentMap, IsRefusedBeforeItUnpacksToFarMoreThanItsFile) {
   constexpr int kSide = 4300;
   DisplayImage black{kSide, kSide, {}};
   black.rgb.resize(std::size_t{3} * kSide * kSide);

@@ -40,7 +40,7 @@ TEST(SceneCamera, MayHaveItsFilmAside) {
   EXPECT_EQ(with_sensor(kSensor).camera.principal_point_offset_x, 0);
 }
 
-TEST(SceneFilter, OfEveryNameIsReadAndWrittenWithItsOwnRadiusOrAGivenOne) {
+TEST(SceneFilter, IsReadAndWrittenByEveryNameAndRadius) {
   int count = 0;
   for (const std::string_view name : filter_names()) {
     ++count;

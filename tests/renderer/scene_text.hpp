@@ -19,7 +19,7 @@ inline constexpr char kSensor[] =
 inline constexpr char kMaterial[] =
     "<bsdf type=\"phong_rdf\" id=\"m\"><float name=\"exponent\" value=\"8\"/></bsdf>";
 
-/// What `body` has on its first line stands on line 3.
+/// The first line of `body` is line 3.
 inline std::string scene(const std::string& body, const std::string& sensor = kSensor) {
   return "<scene version=\"1\">\n" + sensor + "\n" + body + "\n</scene>";
 }

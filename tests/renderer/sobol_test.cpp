@@ -34,7 +34,7 @@ TEST(Sobol, PairsArePaddedIndependently) {
       const auto pixel = sobol::pixel_hash(p, 9);
       sum += (sobol::pair(pixel, k, 0).u - 0.5) * (sobol::pair(pixel, k, 1).u - 0.5);
     }
-  // Of independent numbers the mean has a standard deviation of 1/12 over the root of their number.
+  // The mean of independent numbers has a standard deviation of 1/12 over the root of their number.
   EXPECT_LT(std::abs(sum / (kPixels * kSamples)), 5.0 / 12 / std::sqrt(kPixels * kSamples));
 }
 

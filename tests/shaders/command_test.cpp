@@ -39,18 +39,6 @@ TEST_F(ExportCommand, PrintsTheTextOrWritesItToAFile) {
   EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command)) << "how to get it again";
 }
 
-TEST_F(ExportCommand, SaysInTheTextWithWhichOptionsToGetItAgain) {
-  const std::string options =
-      "phong_rdf --lobe cs8 --normalisation exact --coefficient argument --fresnel schlick";
-  for (const std::string language : {"glsl", "hlsl", "wgsl", "msl", "osl"}) {
-    const std::string command = "export --language " + language + " " + options;
-    ASSERT_EQ(run_shell("\"$LOBELIA\" " + command + " > printed", scratch_.path()).exit_code, 0);
-    EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command + "\n"));
-    EXPECT_THAT(file("printed"), HasSubstr("lobelia_phong_rdf_cs8_fresnel("));
-    EXPECT_THAT(file("printed"), HasSubstr("lobelia_phong_rdf_cs8_coefficient("));
-  }
-}
-
 TEST_F(ExportCommand, WritesHalfFloatsForGlslAndHlsl) {
   const std::string command =
       "export --language glsl modified_phong --lobe cs16 --normalisation exact "
@@ -85,7 +73,7 @@ TEST_F(ExportCommand, IsWhatTheReferenceRendersOfPovrayInclude) {
   EXPECT_EQ(povray_input(scene).includes.at("lobelia_modified_phong_gauss.inc"), file("a.inc"));
 }
 
-TEST_F(ExportCommand, WhatItDoesNotKnowOrHaveIsExitCode2AndOneLine) {
+TEST_F(ExportCommand, RefusesTheUnknownWithExitCode2AndOneLine) {
   const auto expect_refusal = [&](std::vector<std::string> arguments, const char* said) {
     const ProcessResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2);
@@ -126,7 +114,7 @@ TEST_F(ExportCommand, WhatItDoesNotKnowOrHaveIsExitCode2AndOneLine) {
   expect_no_half({"glsl", "--precision", "mediump", "--formula", "c^n"}, "a formula may not hold");
 }
 
-TEST_F(ExportCommand, WhatCannotBeWrittenIsExitCode4AndLeavesNothing) {
+TEST_F(ExportCommand, LeavesNothingAndEndsWith4IfItCannotWrite) {
   EXPECT_EQ(run({"--language", "glsl", "phong_rdf", "-o", "nowhere/a.glsl"}).exit_code, 4);
   EXPECT_EQ(run({"--language", "glsl", "phong_rdf", "--lobe", "cs8", "--normalisation", "paper",
                  "-o", "a.glsl"})

@@ -132,7 +132,7 @@ TEST_F(FakeShaderTools, ATextThatTheBrowserQuotesIsNotTakenForAResult) {
   EXPECT_EQ(run.values.front().front().r, 4.0f);
 }
 
-TEST_F(FakeShaderTools, WhatABrowserLeavesBehindIsRemoved) {
+TEST_F(FakeShaderTools, ABrowsersLeftoversAreRemoved) {
   fake(
       "chromium",
       "mkdir -p \"$TMPDIR/org.chromium.Chromium.x\" \"${XDG_CONFIG_HOME:-$HOME/.config}/chromium\" "

@@ -1,4 +1,4 @@
-// What is exported for POV-Ray, in the hands of a stranger.
+// Exports for POV-Ray, in the hands of a stranger.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -55,7 +55,7 @@ TEST(PlainText, EveryWayToWriteAnIncludeIsRefusedByItsLine) {
           << text;
 }
 
-TEST(PlainText, WhatIsNoIncludeIsNotRefusedAndNoneIsLeftInComments) {
+TEST(PlainText, OnlyIncludesAreRefusedAndCommentsGo) {
   for (const char* text :
        {"// #include \"a\"\n", "/* #include \"a\"\n#include \"b\" */\n", "#define include 1\n",
         "float include;\n", "// a \\\n#include \"a\"\n", "#define included\n#define f(x) #x\n"}) {
@@ -116,7 +116,7 @@ TEST(PlainText, AByteOrderMarkIsNoPartOfTheShader) {
               testing::StartsWith("#version 400\n"));
 }
 
-TEST(PlainText, WhatNoCompilerCanReadIsRefusedInOneLine) {
+TEST(PlainText, UnreadableTextIsRefusedInOneLine) {
   EXPECT_EQ(refusal(std::string("\xff\xfe"
                                 "f\0",
                                 4)),

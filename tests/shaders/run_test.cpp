@@ -223,24 +223,6 @@ TEST_F(RunInABrowser, EveryWgslFunctionHasTheRadianceOfTheFormulasOnWebGpu) {
   expect_the_formulas(ShaderText::kWgsl, ShaderApi::kWebGpu);
 }
 
-void expect_a_mistake_to_be_seen(ShaderText language, ShaderApi api) {
-  const std::string name(kShaderTextNames[std::size_t(language)]);
-  std::string text = shader_text(every_export(name).front());
-  text.replace(text.find("n_dot_l > 0.0"), 1, "m");
-  const ShaderSource source{language, "mine", text, {std::string(vector_type(language)) + "(0.0)"}};
-  try {
-    run_programs(api, {1, {0}}, {make_program(source, api, 1, 1)}, 1);
-    FAIL() << "it was accepted";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("m_dot_l"), std::string::npos) << error.what();
-  }
-}
-
-TEST_F(RunByADriver, AMistakeWouldBeSeen) {
-  expect_a_mistake_to_be_seen(ShaderText::kGlsl, ShaderApi::kEgl);
-  expect_a_mistake_to_be_seen(ShaderText::kHlsl, ShaderApi::kVulkan);
-}
-
 TEST_F(RunByADriver, TheTokenBeginsTheRunnersOwnLinesAlone) {
   const TemporaryDirectory scratch;
   write_file(scratch.path() / kPointsFile, std::string(4 * sizeof(float), '\0'));
@@ -258,10 +240,6 @@ TEST_F(RunByADriver, TheTokenBeginsTheRunnersOwnLinesAlone) {
   EXPECT_THAT(own, testing::ElementsAre(testing::StartsWith("TOKEN device "),
                                         testing::StartsWith("TOKEN driver ")));
   EXPECT_THAT(others, testing::Contains(testing::HasSubstr("FORGED")));
-}
-
-TEST_F(RunInABrowser, AMistakeWouldBeSeen) {
-  expect_a_mistake_to_be_seen(ShaderText::kWgsl, ShaderApi::kWebGpu);
 }
 
 }  // namespace

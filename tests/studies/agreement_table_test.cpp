@@ -115,7 +115,7 @@ TEST(AgreementTable, SaysMissedWhereATargetIsMissed) {
   EXPECT_THAT(report_csv(agreement), HasSubstr(",missed,"));
 }
 
-TEST(AgreementPage, OfTheDocumentationHasTheSectionsAndColumnsThatTheProgramWrites) {
+TEST(AgreementPage, HasTheSectionsAndColumnsThatTheProgramWrites) {
   const std::string page = read_file(LOBELIA_SOURCE_DIR "/docs/agreement.md", 1 << 20);
   const std::string today = report_markdown({}, "lobelia verify references");
   EXPECT_EQ(page.substr(0, page.find("`lobelia verify references`:")),

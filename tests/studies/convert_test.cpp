@@ -67,14 +67,14 @@ TEST(Curve, HasTheHalfWidthOfTheClosedForm) {
   for (const char* name : {"phong_rdf", "modified_phong"})
     for (const double n : {1e-3, 3.0, 32.0, 1e4, 1e8})
       EXPECT_NEAR(Curve(model(name), n, 1).half_width() / cosine_half_width(n + 1), 1, 1e-12) << n;
-  // Of a small highlight the cosine of the eye is 1.
+  // For a small highlight the cosine of the eye is 1.
   EXPECT_NEAR(Curve(model("blinn_phong_ndf"), 1e8, 1).half_width() / (2 * cosine_half_width(1e8)),
               1, 1e-7);
   // (sin a)^2 = alpha^2 (sqrt(2) - 1) / (1 - alpha^2) is where D is half.
   const double alpha = 1e-4,
                half_vector = std::asin(alpha * std::sqrt((std::sqrt(2) - 1) / (1 - alpha * alpha)));
   EXPECT_NEAR(Curve(kGgxModel, alpha, 1).half_width() / (2 * half_vector), 1, 1e-7);
-  // Of alpha 1 the curve is cos x / (2 pi (1 + cos x)).
+  // For alpha = 1 the curve is cos x / (2 pi (1 + cos x)).
   EXPECT_NEAR(Curve(kGgxModel, 1, 1).half_width(), std::acos(1 / 3.0), 1e-14);
 }
 
@@ -90,7 +90,7 @@ TEST(Curve, IsHalfOfItsPeakAtOneAngleAlone) {
     }
 }
 
-TEST(Curve, OfGgxIsTintedByFresnelAwayFromTheMirrorDirectionAlone) {
+TEST(Curve, IsTintedByFresnelForGgxOnlyAwayFromTheMirror) {
   const Curve white(kGgxModel, 0.3, 1), grey(kGgxModel, 0.3, 0.04);
   EXPECT_EQ(white.peak(), grey.peak());
   // F / F0 by Schlick at an eye of 80 degrees, 40 from the half vector.
@@ -108,7 +108,7 @@ TEST(BestByWidth, IsAsWideAndComesBackToWhereItBegan) {
     }
 }
 
-TEST(Best, OfTheSameModelIsTheParameterItself) {
+TEST(Best, IsTheParameterItselfForTheSameModel) {
   for (int measure = 0; measure < 4; ++measure) {
     EXPECT_NEAR(best(model("phong_rdf"), 77, model("phong_rdf"), Measure(measure)) / 77, 1, 1e-5);
     EXPECT_NEAR(best(kGgxModel, 0.2, kGgxModel, Measure(measure)) / 0.2, 1, 1e-5);
@@ -176,7 +176,7 @@ TEST(Errors, AreThoseOfAnotherImplementation) {
 
 TEST(Rules, HaveThePeaksOfTheDistributionsAndTheWidthsThatAreQuoted) {
   const double n = 32;
-  // Of the distributions alone, as functions of the angle of N from H.
+  // The distributions alone, as functions of the angle of N from H.
   const auto peak = [&](double alpha) { return 1 / (kPi * alpha * alpha) / ((n + 2) / (2 * kPi)); };
   const double walter = std::sqrt(2 / (n + 2)), blender = std::pow(1 - std::sqrt(n / 1000), 2);
   const records::Conversion conversion =
@@ -206,7 +206,7 @@ TEST(Rules, BackFromGgxAreTheInverse) {
     }
 }
 
-TEST(Rules, WithoutAHighlightSayWhy) {
+TEST(Rules, SayWhyTheyGiveNoHighlight) {
   const auto to_ggx =
       convert({model("blinn_phong_heightfield"), kGgxModel, 1000, 1, Measure::kMax});
   EXPECT_EQ(row(to_ggx.rules, "Blender").because, "alpha 0 is a mirror");
@@ -237,7 +237,7 @@ TEST(Conversion, HasFiniteFiguresOverTheWholeRange) {
     expect_finite(convert({kGgxModel, model("modified_phong"), alpha, 0.04, Measure::kMax}));
 }
 
-TEST(Conversion, AtTheEndOfTheRangeSaysSo) {
+TEST(Conversion, SaysThatItIsAtTheEndOfTheRange) {
   // Blinn-Phong would need 4e8.
   const auto conversion =
       convert({model("phong_rdf"), model("blinn_phong_rdf"), 1e8, 1, Measure::kMax});
@@ -265,7 +265,7 @@ TEST(Range, HasTheParametersOfItsConversions) {
   EXPECT_EQ(range_chart(table).series.size(), 1u + 5u);
 }
 
-TEST(Range, WithoutAnAnswerHasAGap) {
+TEST(Range, HasAGapWithoutAnAnswer) {
   const auto text = range_text(convert_range({kGgxModel, model("phong_rdf"), 0, 1, Measure::kMax}));
   EXPECT_THAT(text, testing::HasSubstr(" - "));
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("nan")));

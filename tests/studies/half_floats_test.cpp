@@ -17,7 +17,7 @@ namespace {
 
 constexpr LobeAngle kAngles[] = {LobeAngle::kReflection, LobeAngle::kHalfVector};
 
-TEST(HalfFloats, OfEveryExportedLobeHoldWithSubnormalsAndWithout) {
+TEST(HalfFloats, HoldForEveryExportedLobeWithSubnormalsAndWithout) {
   for (const LobeAngle angle : kAngles)
     for (const LobeId& lobe : some_of(all_lobes()))
       for (const double n : kHalfExponents)

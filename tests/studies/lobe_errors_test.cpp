@@ -51,7 +51,7 @@ double by_force(const LobeVariant& variant, double n, float from, float to) {
   return most;
 }
 
-TEST(LargestError, OfSquaringARoundedCosineIsThatOfEveryNumber) {
+TEST(LargestError, IsThatOfEveryNumberForSquaringARoundedCosine) {
   // 1 - s changes where s is an odd number of 2^-25: those numbers and their neighbours, by plain loops. Three
   // million random numbers find 3.16e-6 at n = 64, and 2560 points find 2.31e-6.
   for (const int squarings : {6, 10}) {
@@ -77,7 +77,7 @@ TEST(LargestError, OfSquaringARoundedCosineIsThatOfEveryNumber) {
   }
 }
 
-TEST(LargestError, OfALobeOfAnotherShapeIsThatOfEveryNumberAboutItsPlace) {
+TEST(LargestError, IsThatOfEveryNumberForALobeOfAnotherShape) {
   for (const char* name : {"cs16, stable, float32 SIMD", "cs16, squaring, float32",
                            "schlick, stable, float32 SIMD", "cs16, textbook, float32"}) {
     const LobeVariant variant = variant_named(lobe_variants(1024), name);
@@ -93,7 +93,7 @@ TEST(LargestError, OfALobeOfAnotherShapeIsThatOfEveryNumberAboutItsPlace) {
   }
 }
 
-TEST(LargestError, OfOurCosineLiesInItsBracketAndNoNumberIsFartherOff) {
+TEST(LargestError, LiesInItsBracketForOurCosine) {
   constexpr double n = 64.5;
   const LobeVariant variant =
       variant_named(lobe_variants(n), "cosine, exp(n log1p(-s)), float32 SIMD");
@@ -111,7 +111,7 @@ TEST(LargestError, OfOurCosineLiesInItsBracketAndNoNumberIsFartherOff) {
   EXPECT_GE(by_force(variant, n, 0.9f / 64, 1.1f / 64), 0.5 * all.found);
 }
 
-TEST(LargestError, OfOurCosineToAWholePowerIsTheRoundingOfItsValue) {
+TEST(LargestError, IsTheRoundingOfItsValueForAWholePowerOfOurCosine) {
   std::size_t number = 0;
   for (const double n : {64.0, 1.0, 2.0, 4096.0, 100.0}) {
     if (is_left_out(number++, 5)) continue;
@@ -141,7 +141,7 @@ TEST(LargestError, BoundsEveryVariantAtRandomNumbers) {
     }
 }
 
-TEST(LobeVariants, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
+TEST(LobeVariants, GiveOneInFloat32WhereTheyAreTooCloseToIt) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> uniform;
   for (const double n : {1.0, 16.0, 64.5, 1024.0, 1e6})
@@ -156,7 +156,7 @@ TEST(LobeVariants, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
     }
 }
 
-TEST(LobeVariants, ThatSeeTheRoundedCosineAloneAreSteps) {
+TEST(LobeVariants, AreStepsIfTheySeeTheRoundedCosineAlone) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> uniform;
   int of_cosine = 0;
@@ -174,7 +174,7 @@ TEST(LobeVariants, ThatSeeTheRoundedCosineAloneAreSteps) {
   EXPECT_GT(of_cosine, 30);
 }
 
-TEST(Lobes, OfTheCatalogueBendNoMoreThanTheSearchTakesThemTo) {
+TEST(Lobes, BendNoMoreThanTheSearchTakesThemTo) {
   for (const LobeId& lobe : all_lobes())
     for (const double n : {2.0, 16.0, 64.5, 1e6}) {
       const auto difference = [&](double s) {
@@ -223,7 +223,7 @@ TEST(LobeVariants, CountWhatTheyDo) {
   EXPECT_EQ(variant_named(variants, "schlick, textbook, float32").operations.divide, 1);
 }
 
-TEST(LobeErrors, OfCs16AreThePapersAndWhatItsIntegralSays) {
+TEST(LobeErrors, AreThePapersAndTheIntegralsForCs16) {
   for (const char* name : {"cs16, stable, float64", "cs16, stable, float64 SIMD",
                            "cs16, stable, float32 SIMD", "cs16, textbook, float32"}) {
     const LobeVariantErrors e = errors_of(1024, name);
@@ -234,7 +234,7 @@ TEST(LobeErrors, OfCs16AreThePapersAndWhatItsIntegralSays) {
   }
 }
 
-TEST(LobeErrors, OfTheSphericalGaussianFallWithTheExponent) {
+TEST(LobeErrors, FallWithTheExponentForTheSphericalGaussian) {
   // exp(-x) - (1 - x/n)^n = exp(-x) x^2 / (2 n) + O(1/n^2), largest at x = 2: 2 exp(-2) / n.
   for (const double n : {65536.0, 1e6}) {
     const LobeErrors e = errors_of(n, "spherical_gaussian, stable, float64").all;
@@ -245,7 +245,7 @@ TEST(LobeErrors, OfTheSphericalGaussianFallWithTheExponent) {
   }
 }
 
-TEST(LobeErrors, OfSchlickAreThatOfItsSlowTail) {
+TEST(LobeErrors, ComeFromTheSlowTailForSchlick) {
   const LobeErrors e = errors_of(1024, "schlick, stable, float64").all;
   double largest = 0;
   for (double s = 0; s < 0.02; s += 1e-6)
@@ -268,7 +268,7 @@ TEST(LobeErrors, SumWhatRoundingDriftsTo) {
   EXPECT_THAT(e.all.max, DoubleNear(1e-6, 1e-12));
 }
 
-TEST(LobeErrors, OfAVariantThatComputesSomethingElseAreABug) {
+TEST(LobeErrors, AreABugForAVariantThatComputesSomethingElse) {
   LobeVariant variant = variant_named(lobe_variants(64), "cs16, stable, float32 SIMD");
   variant.over32 = variant_named(lobe_variants(64), "cs8, stable, float32 SIMD").over32;
   EXPECT_THROW(LobeTruth(64).errors(variant), Error);
@@ -297,7 +297,7 @@ TEST(LobeTable, HasEveryVariantWithItsTimeErrorsAndOperations) {
   EXPECT_THAT(table.remarks, Contains(HasSubstr("a bracket: the largest found")));
 }
 
-TEST(LobeLevel, HasATableForEachExponentAndTheTwoAnglesInHalfFloatsWithEveryLobeInEveryForm) {
+TEST(LobeLevel, HasATableForEachExponentAndForBothAnglesInHalfFloats) {
   Options options;
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);

@@ -1,4 +1,4 @@
-// What of the paper holds: every figure that docs/errata.md leans on. Values come from an independent
+// Claims of the paper: every figure that docs/errata.md leans on. Values come from an independent
 // calculation or a closed form; tolerances are about half a unit of what is printed. And what is made of the
 // measured claims: the errata, the record, the table, the plots, the command.
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ struct Pin {
   double value, tolerance;
 };
 
-TEST(PaperFindings, have_the_measured_figures_that_are_known) {
+TEST(PaperFindings, HaveTheMeasuredFiguresThatAreKnown) {
   const double pi_by_180 = std::acos(-1) / 180;
   const Pin pins[] = {
       {"cs16-largest-error", 0, 0.017012, 1e-6},
@@ -125,13 +125,13 @@ TEST(PaperFindings, have_the_measured_figures_that_are_known) {
   }
 }
 
-TEST(PaperErrata, are_the_page_in_docs) {
+TEST(PaperErrata, AreThePageInDocs) {
   EXPECT_EQ(read_file(LOBELIA_SOURCE_DIR "/docs/errata.md", 1 << 20),
             errata_document(measured_claims()))
       << "run: lobelia verify paper --errata > docs/errata.md";
 }
 
-TEST(PaperErrata, have_tables_whose_rows_have_the_columns_of_their_head) {
+TEST(PaperErrata, HaveTheColumnsOfTheirHeadInEveryRow) {
   const std::string page = errata_document(measured_claims());
   std::istringstream in(page);
   long columns = 0;
@@ -145,7 +145,7 @@ TEST(PaperErrata, have_tables_whose_rows_have_the_columns_of_their_head) {
   EXPECT_GT(rows, 100);
 }
 
-TEST(PaperClaims, say_all_that_a_reader_needs_and_have_names_of_their_own) {
+TEST(PaperClaims, SayAllThatAReaderNeedsUnderNamesOfTheirOwn) {
   static const std::regex kebab("[a-z0-9.]+(-[a-z0-9.]+)*");
   std::set<std::string_view> names;
   for (const Claim& claim : measured_claims()) {
@@ -161,7 +161,7 @@ TEST(PaperClaims, say_all_that_a_reader_needs_and_have_names_of_their_own) {
   }
 }
 
-TEST(PaperTable, has_a_line_for_every_claim_and_the_counts) {
+TEST(PaperTable, HasALineForEveryClaimAndTheCounts) {
   const std::string table = table_text(measured_claims());
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), long(measured_claims().size()) + 3);
   EXPECT_THAT(table, HasSubstr("22 confirmed, 13 not reproduced, 8 found beyond the paper\n"));
@@ -173,7 +173,7 @@ const std::vector<Plot>& drawn_plots() {
   return drawn;
 }
 
-TEST(PaperPlots, are_well_formed_and_every_line_has_points_inside_the_frame) {
+TEST(PaperPlots, AreWellFormedWithPointsInsideTheFrame) {
   for (const auto& [file, chart, claims] : drawn_plots()) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(draw_chart_file(chart).c_str())) << file;
@@ -186,7 +186,7 @@ TEST(PaperPlots, are_well_formed_and_every_line_has_points_inside_the_frame) {
   }
 }
 
-TEST(PaperPlots, name_claims_that_there_are) {
+TEST(PaperPlots, NameClaimsThatExist) {
   std::set<std::string_view> names;
   for (const Claim& claim : measured_claims()) names.insert(claim.name);
   for (const Plot& plot : drawn_plots()) {
@@ -195,7 +195,7 @@ TEST(PaperPlots, name_claims_that_there_are) {
   }
 }
 
-TEST(PaperCommand, exits_with_0_and_writes_record_and_plots) {
+TEST(PaperCommand, ExitsWith0AndWritesRecordAndPlots) {
   const TemporaryDirectory directory;
   const auto result = run_lobelia({"verify", "paper", "--json", "paper.json", "--plots", "plots"},
                                   directory.path());
@@ -215,7 +215,7 @@ TEST(PaperCommand, exits_with_0_and_writes_record_and_plots) {
               draw_chart_file(plot.chart));
 }
 
-TEST(PaperCommand, prints_the_errata) {
+TEST(PaperCommand, PrintsTheErrata) {
   const TemporaryDirectory directory;
   const auto result = run_shell("\"$LOBELIA\" verify paper --errata > errata.md", directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
 
-TEST(PaperEnergy, of_cs16_is_its_closed_form_to_fifteen_digits) {
+TEST(PaperEnergy, IsForCs16ItsClosedFormToFifteenDigits) {
   // With u = 1 - n s/16: the integral of cs16 s^j ds is (16/n)^(j+1) B(17, j+1).
   const auto moment = [](int j, Real n) {
     Real beta = 1.0L / 17;
@@ -30,7 +30,7 @@ TEST(PaperEnergy, of_cs16_is_its_closed_form_to_fifteen_digits) {
   }
 }
 
-TEST(PaperEnergy, cut_as_printed_loses_what_lies_beyond) {
+TEST(PaperEnergy, LosesWhatLiesBeyondIfCutAsPrinted) {
   const Row& row = kRows[kBlinn];
   const Real whole = hemisphere_integral(row, Lobe::kCs16, 1024),
              cut = hemisphere_integral(row, Lobe::kCs16, 1024, Cut::kPrinted);
@@ -61,7 +61,7 @@ double albedo_by_brute_force(const Row& row, Real n, double coefficient, double 
   return row.is_rdf() && held == Held::kBeam ? sum / std::cos(theta) : sum;
 }
 
-TEST(PaperAlbedo, is_what_a_sum_over_all_directions_gives) {
+TEST(PaperAlbedo, IsTheSumOverAllDirections) {
   for (const Row& row : kRows)
     for (const Held held : {Held::kBeam, Held::kEye})
       for (const double degrees : {0.0, 30.0, 75.0, 88.0}) {
@@ -72,21 +72,21 @@ TEST(PaperAlbedo, is_what_a_sum_over_all_directions_gives) {
       }
 }
 
-TEST(PaperSearch, finds_a_maximum_between_two_points_of_the_scan_and_at_an_end) {
+TEST(PaperSearch, FindsAMaximumBetweenTwoPointsAndAtAnEnd) {
   const auto parabola = [](Real x) { return 5 - (x - 0.37L) * (x - 0.37L); };
   EXPECT_NEAR(double(largest(parabola, 0, 1, 4).at), 0.37, 1e-6);
   EXPECT_NEAR(double(largest(parabola, 0, 1, 4).value), 5, 1e-12);
   EXPECT_EQ(double(largest([](Real x) { return x; }, 0, 1, 4).at), 1);
 }
 
-TEST(PaperVerdict, is_confirmed_where_the_measurement_rounds_to_what_is_printed) {
+TEST(PaperVerdict, IsConfirmedWhereTheMeasurementRoundsToThePrint) {
   EXPECT_TRUE(rounds_to(4.706e-4L, 4.7e-4, 1e-5));
   EXPECT_TRUE(rounds_to(1.275e-3L, 1.3e-3, 1e-4));
   EXPECT_FALSE(rounds_to(1.2e-3L, 1.3e-3, 1e-4));
   EXPECT_FALSE(rounds_to(0, -9.7e-3, 1e-4));
 }
 
-TEST(PaperFigureText, has_the_digits_asked_for) {
+TEST(PaperFigureText, HasTheDigitsAskedFor) {
   EXPECT_EQ(figure_text(0.0170125, 3), "1.70e-2");
   EXPECT_EQ(figure_text(0.9996, 3), "1.00");
   EXPECT_EQ(figure_text(36.75, 3), "36.8");

@@ -75,7 +75,7 @@ TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
   EXPECT_THAT(table.remarks[1], HasSubstr("noise of 2 samples"));
   // As noisy whatever the precision, and no variant is the truth itself.
   EXPECT_GT(find(table, "cosine, float64").errors[2].second, 1e-3);
-  EXPECT_EQ(find(table, "cosine, float64").facts.value().samples, 2);
+  EXPECT_EQ(setting(find(table, "cosine, float64"), "samples"), 2);
 }
 
 TEST(WithLobe, KeepsTheCoefficientOfAMaterialThatHasItAlready) {

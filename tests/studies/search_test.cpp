@@ -1,12 +1,12 @@
 // `lobelia search`: its optima by a second solver, its proofs by 50 digits on grids, its certificates by themselves.
 #include <gmock/gmock.h>
+#include <oneapi/tbb/cache_aligned_allocator.h>
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <random>
 
-#include "core/aligned.hpp"
 #include "core/error.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/minimax.hpp"
@@ -216,14 +216,14 @@ TEST(Search, FindsNoLobesNearerThanTheCatalogues) {
 }
 
 TEST(Search, TimesWhatItFound) {
-  // What is timed is the lobe: the value in float32 is that in double.
+  // The timed function is the lobe: its value in float32 is that in double.
   constexpr std::size_t kCount = 4096;
-  const auto s = aligned_floats(kCount), value = aligned_floats(kCount);
+  std::vector<float, oneapi::tbb::cache_aligned_allocator<float>> s(kCount), value(kCount);
   for (std::size_t i = 0; i < kCount; ++i) s[i] = float(i) / kCount;
   for (const Shape& shape : {Shape{Outer::kClamp, 3, 2, 1}, Shape{Outer::kReciprocal, 2, 1, 1},
                              Shape{Outer::kBits, 2, 0, 0}}) {
     const Lobe lobe = minimax(shape, {16, kInfinity}).lobe;
-    evaluate(lobe, 20, kCount, s.get(), value.get());
+    evaluate(lobe, 20, kCount, s.data(), value.data());
     for (std::size_t i = 0; i < kCount; ++i)
       EXPECT_NEAR(value[i], lobe.value(20 * double(s[i]), 1.0 / 20), 2e-5)
           << name(shape) << " " << i;

@@ -121,7 +121,7 @@ TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
     }
 }
 
-TEST_F(ShaderCheck, WhatDoesNotCompileEndOrWriteIsOneLine) {
+TEST_F(ShaderCheck, RefusesInOneLineAShaderThatDoesNotCompileEndOrWrite) {
   const std::string head = "float highlight(vec3 N, vec3 V, vec3 L, float n)\n";
   const auto with = [&](const std::string& body, std::chrono::duration<double> time_limit = kHang) {
     shader_check::Request request = request_of("phong_rdf", head + body);
@@ -174,7 +174,7 @@ TEST_F(ShaderCheck, CountsWhatIsNoNumberAndWhatIsOutsideTheSupport) {
   EXPECT_EQ(zero.record.explanation->sentence, "it is 0 in every direction");
 }
 
-TEST_F(ShaderCheck, MeasuresHalfFloatsInstructionsAndTimeBesideOurs) {
+TEST_F(ShaderCheck, MeasuresHalfFloatsAndInstructionsBesideOurs) {
   shader_check::Request request = request_of_export("blinn_phong_ndf");
   request.costs = true;
   const Check check = shader_check::check_shader(request);
@@ -183,7 +183,6 @@ TEST_F(ShaderCheck, MeasuresHalfFloatsInstructionsAndTimeBesideOurs) {
   // It is ours.
   EXPECT_EQ(check.record.costs[0].instructions, check.record.costs[1].instructions);
   EXPECT_GT(check.record.costs[0].instructions, check.record.costs[2].instructions);
-  EXPECT_TRUE(check.record.costs[0].seconds);
   ASSERT_EQ(check.record.half_floats.size(), request.exponents.size());
   EXPECT_GT(check.record.half_floats.back().max_of_peak, 1e-3);
 }
@@ -199,7 +198,7 @@ TEST_F(ShaderCheck, ThePageHasPicturesAndEscapesTheFilesName) {
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
 }
 
-/// What a shader with the mistake would give without rounding but that of the result.
+/// The value of a shader with the mistake, with no rounding but that of the result.
 shader_check::Observed observed_of(const Highlight& highlight,
                                    const shader_check::Mistake& mistake) {
   shader_check::Observed observed;

@@ -72,8 +72,7 @@ TEST(HardCases, DensitiesAreRightDownToTheirUnderflowAndNotOnlyWhereThereIsNothi
   }
 }
 
-TEST(HardCases,
-     VectorsAreComparedUnlessLightAndEyeFaceEachOtherAlongTheHorizonAndNoCosineDimsThem) {
+TEST(HardCases, VectorsAreComparedUnlessUndimmedAlongTheHorizon) {
   const auto is_undimmed = [](std::string_view model) {
     const ModelInfo& about = info(*find_model(model));
     return about.angle == LobeAngle::kHalfVector && (!about.applies_cosine || about.has_shadowing);

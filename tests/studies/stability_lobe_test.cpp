@@ -1,4 +1,4 @@
-// What each lobe's file states of its float32 arithmetic. Every lobe of the catalogue is met here without a
+// The float32 arithmetic that each lobe's file states. Every lobe of the catalogue is met here without a
 // line written; stability_baseline.cpp runs the same on the oldest processor.
 #include <gtest/gtest.h>
 

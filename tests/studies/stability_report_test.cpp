@@ -72,7 +72,7 @@ TEST(AReport, CountsWhatIsNotComparedAndPassesItNowhere) {
   EXPECT_EQ(record["rows"][1]["outcome"], "not compared");
 }
 
-TEST(ErrorCurves, AreOursWithinWhatAPictureMayBeOffAndTheTextbooksOnlyWhereTheHighlightIsBroad) {
+TEST(ErrorCurves, AreSmallForUsAndForTheTextbookOnlyIfBroad) {
   for (const records::StabilityCurve& curve : error_curves()) {
     double ours = 0, naive = 0;
     ASSERT_EQ(curve.truth.size(), curve.degrees.size());

@@ -148,7 +148,6 @@ export interface ShownComparison {
   /** of the difference */
   picture: ShownPicture | null;
   whiteAt: number | "nan" | "inf" | "-inf" | null;
-  relativeToPeak: number | null;
   maps: ShownMap[];
   /** pixel of the largest difference */
   worstX: number | "nan" | "inf" | "-inf" | null;
@@ -280,77 +279,6 @@ export interface Thumbnails {
   ways: number[];
   /** all pictures as gallery/packed_pixels.hpp has them; base64, deflated */
   pixels: string;
-}
-
-/** The largest errors of a lobe: of the peak, and in ulp. */
-export interface StabilitySummary {
-  group: string;
-  lobe: string;
-  exponent: number;
-  naive: [number | "nan" | "inf" | "-inf", number | "nan" | "inf" | "-inf"];
-  ours: [number | "nan" | "inf" | "-inf", number | "nan" | "inf" | "-inf"];
-}
-
-/** One highlight along a line across it, of the peak. */
-export interface StabilityCurve {
-  exponent: number;
-  model: string;
-  lobe: string;
-  /** degrees */
-  degrees: number[];
-  truth: (number | "nan" | "inf" | "-inf")[];
-  naive: (number | "nan" | "inf" | "-inf")[];
-  ours: (number | "nan" | "inf" | "-inf")[];
-}
-
-/** The page of the hard cases. */
-export interface StabilityPage {
-  summaries: StabilitySummary[];
-  curves: StabilityCurve[];
-}
-
-/** An axis of a chart. */
-export interface ChartAxis {
-  /** with its unit */
-  label: string;
-  from: number;
-  to: number;
-  logarithmic?: boolean;
-  /** labelled values */
-  ticks?: number[];
-}
-
-/** A marked range of the x axis. */
-export interface ChartBand {
-  title: string;
-  from: number;
-  to: number;
-}
-
-/** A line. A value that is not finite is a gap. */
-export interface ChartSeries {
-  name: string;
-  /** 0 is a broad pale line, 1 to 5 are dash patterns */
-  style: number;
-  x: (number | "nan" | "inf" | "-inf")[];
-  y: (number | "nan" | "inf" | "-inf")[];
-}
-
-/** A chart and the claims that it shows. */
-export interface PaperFigure {
-  id: string;
-  title: string;
-  description: string;
-  x: ChartAxis;
-  y: ChartAxis;
-  bands: ChartBand[];
-  series: ChartSeries[];
-  claims: string[];
-}
-
-/** The page of the paper's claims. */
-export interface PaperPage {
-  charts: PaperFigure[];
 }
 
 /** How far an interpolated value may be off: of the peak for a curve, else relative. */

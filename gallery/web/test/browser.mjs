@@ -1,8 +1,9 @@
-// A gallery in Debian's Chromium, from file:// and from `lobelia gallery serve`, with everything that must not happen
+// A gallery in Debian's Chromium, from file:// and from a server, with everything that must not happen
 // made a failure: complaints, requests elsewhere, dialogs.
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -24,14 +25,22 @@ export function scratch() {
   return directory;
 }
 
+/** A server of static files, as `python3 -m http.server --bind 127.0.0.1` is one. */
 export async function serve(site) {
-  const server = spawn(program, ['gallery', 'serve', site, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
-  process.on('exit', () => server.kill());
-  const url = await new Promise((resolve, reject) => {
-    server.stdout.once('data', (text) => resolve(String(text).trim()));
-    server.once('exit', (code) => reject(new Error(`serve ended with ${code}`)));
+  const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.png': 'image/png', '.svg': 'image/svg+xml', '.json': 'application/json' };
+  const server = createServer((request, response) => {
+    const name = decodeURIComponent(new URL(request.url, 'http://127.0.0.1').pathname);
+    try {
+      const file = path.join(site, name.endsWith('/') ? name + 'index.html' : name);
+      const content = readFileSync(file);
+      response.writeHead(200, { 'Content-Type': types[path.extname(file)] ?? 'application/octet-stream' }).end(content);
+    } catch {
+      response.writeHead(404).end();
+    }
   });
-  return { url, stop: () => new Promise((done) => { server.once('exit', done); server.kill('SIGINT'); }) };
+  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  server.unref();
+  return { url: `http://127.0.0.1:${server.address().port}/`, stop: () => new Promise((done) => { server.close(done); server.closeAllConnections?.(); }) };
 }
 
 export const fileUrl = (site) => pathToFileURL(site).href + '/';
@@ -48,7 +57,7 @@ export async function open(browser, url, options = {}) {
   context.setDefaultTimeout(kHang);
   const page = await context.newPage();
   const problems = [];
-  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text())) problems.push(message.text()); });
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader|willReadFrequently/i.test(message.text())) problems.push(message.text()); });
   page.on('pageerror', (error) => problems.push(String(error)));
   page.on('dialog', (dialog) => { problems.push('dialog ' + dialog.message()); void dialog.dismiss(); });
   page.requested = new Set();
@@ -110,10 +119,7 @@ export const ready = (page, count = 2) => page.waitForFunction((n) => Number(doc
 export async function seenAt(page, shareX, shareY) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return page.evaluate(([x, y]) => {
-    const canvas = document.querySelector('.stage canvas'), gl = canvas.getContext('webgl2');
-    if (!gl) return [...canvas.getContext('2d').getImageData(Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data.subarray(0, 3)];
-    const pixel = new Uint8Array(4);
-    gl.readPixels(Math.floor(x * canvas.width), Math.floor((1 - y) * canvas.height), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-    return [...pixel.subarray(0, 3)];
+    const canvas = document.querySelector('.stage canvas');
+    return [...canvas.getContext('2d').getImageData(Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data.subarray(0, 3)];
   }, [shareX, shareY]);
 }

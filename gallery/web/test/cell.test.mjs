@@ -4,7 +4,7 @@ import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { close, fileUrl, hashOf, launch, lobelia, open, ready, requireAccessible, says, seenAt, serve } from './browser.mjs';
+import { close, fileUrl, hashOf, lobelia, open, ready, requireAccessible, says, seenAt, serve } from './browser.mjs';
 import { cellSite, kCell, middle, near } from './cell_site.mjs';
 import { encode, errorOf, ours, writeFarm } from './farm.mjs';
 
@@ -223,39 +223,6 @@ test('on paper the pictures are there, and the controls are not', async () => {
   assert.ok(await page.locator('section.pictures').isVisible());
   assert.ok(!await page.locator('.viewer').isVisible());
   await close(page);
-});
-
-test('without WebGL 2 the processor paints the same pixels, and says so', async () => {
-  const plain = await launch(['--disable-gpu', '--disable-3d-apis']);
-  try {
-    const page = await open(plain, fileUrl(site) + kCell), wanted = await cellPage();
-    await ready(page);
-    await says(page, '.stage-note', /^Painted by the processor/);
-    page.problems.length = 0;  // Chromium itself complains of the missing WebGL
-    const pair = 'a=blender&b=lobelia', shares = [0.1, 0.35, 0.52, 0.6], seen = new Set();
-    for (const hash of ['mode=flip&ev=0.5', 'mode=flip&colour=false', `${pair}&mode=side&z=7&x=30.2&y=20.7`, `${pair}&mode=slide&split=40`, `${pair}&mode=diff`, `${pair}&mode=diff&colour=false`,
-      `${pair}&mode=diff&measure=relative`, `${pair}&mode=diff&measure=signed`, `${pair}&mode=diff&measure=ciede2000&gain=8`, `${pair}&mode=diff&measure=ciede2000&colour=false`]) {
-      for (const one of [page, wanted]) {
-        await one.evaluate((text) => { location.hash = text; }, hash);
-        if (hash.includes('ciede2000')) await says(one, '.legend-bar', /the largest is/);
-      }
-      for (const x of shares)
-        for (const y of shares) {
-          const [a, b] = [await seenAt(page, x, y), await seenAt(wanted, x, y)];
-          near(a, b, 3);
-          seen.add(String(b));
-        }
-    }
-    assert.ok(seen.size > 60, `${seen.size} colours`);
-    await page.locator('.stage').focus();
-    await page.keyboard.press('ArrowLeft');
-    await says(page, '.pixel-values tbody td', /\d/);
-    await requireAccessible(page, 'without WebGL 2');
-    await close(page);
-    await close(wanted);
-  } finally {
-    await plain.close();
-  }
 });
 
 test('axe finds nothing, in light, in dark and in forced colours, at rest and with everything open', async () => {

@@ -1,14 +1,19 @@
-#include "reference_scenes/engines/babylon/babylon.hpp"
-
+// Babylon.js' StandardMaterial as a reference engine: Blinn-Phong without a coefficient.
 #include <algorithm>
 #include <cmath>
 
-#include "reference_scenes/engines/programs/browser_engine.hpp"
 #include "reference_scenes/engines/programs/native_engine.hpp"
 #include "renderer/pixel_ray.hpp"
 
 namespace lobelia {
 namespace {
+
+constexpr EngineVariant kBabylonVariants[] = {
+    {.name = "babylon",
+     .title = "Babylon.js native",
+     .shading = Shading::kNative,
+     .floor = kFloat32PointFloor},
+};
 
 /// (N.H)^n, without a coefficient.
 std::optional<OwnHighlight> babylon_highlight(const Highlight& highlight) {
@@ -43,22 +48,25 @@ std::string why_not_in_babylon(const Scene& scene) {
   return "";
 }
 
-constexpr NativeEngine kBabylon{
-    kBabylonInfo,
+}  // namespace
+
+constinit const NativeEngine kBabylon{
+    {
+        .name = "babylon",
+        .title = "Babylon.js",
+        .install_hint = "sudo apt-get install chromium npm, and build Lobelia again with make",
+        .supported_versions = "9",
+        .shading = "native: Blinn-Phong (RDF) with cos^n, grey",
+        .precision = "float32 throughout, on SwiftShader",
+        .effects = "one sphere, directional lights; as averages: depth of field, antialiasing",
+        .plain = "float",
+        .floor = kFloat32PointFloor,
+        .seconds = {0.5, 2e-6},
+        .variants = kBabylonVariants,
+    },
     {"engine_babylon", "Babylon.js ", [](int major, int) { return major == 9; }, page_of, true},
     "Babylon.js' own StandardMaterial, one point with the sphere's normal for each pixel",
     babylon_highlight,
     why_not_in_babylon};
-
-}  // namespace
-
-std::unique_ptr<Engine> make_babylon(const std::filesystem::path& program) {
-  return make_native_engine(kBabylon, program);
-}
-
-void keep_babylon_input(const Scene& scene, const ReferenceOptions& options,
-                        const std::filesystem::path& directory) {
-  keep_native_input(kBabylon, scene, options, directory);
-}
 
 }  // namespace lobelia

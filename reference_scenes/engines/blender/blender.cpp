@@ -65,14 +65,6 @@ class BlenderProgram final : public PersistentProgram {
   void remove_pictures(const fs::path& directory, const SceneInput& input) const override {
     remove_in_temporary_directory(directory / sky_file(input.name));
   }
-  Stage ended_stage(std::string_view line) const override {
-    const auto has = [&](std::string_view words) { return line.find(words) != line.npos; };
-    return has("lobelia: begin")                                 ? Stage::kStart
-           : has("| Sample 0/")                                  ? Stage::kParse
-           : has("| Finished")                                   ? Stage::kTrace
-           : line.starts_with(" Time: ") || has("lobelia: done") ? Stage::kWrite
-                                                                 : Stage::kNone;
-  }
   bool is_native() const override { return is_native_; }
   std::string method() const override {
     if (own_transport_) return "Cycles' own light transport";

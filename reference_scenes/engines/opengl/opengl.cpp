@@ -1,9 +1,16 @@
-#include "reference_scenes/engines/opengl/opengl.hpp"
-
+// OpenGL's lighting before shaders (OpenGL 1.0 to 2.1, "fixed function") as a reference engine: Blinn-Phong as it was in every
+// graphics card for twenty years.
 #include "reference_scenes/engines/programs/native_engine.hpp"
 
 namespace lobelia {
 namespace {
+
+constexpr EngineVariant kOpenglVariants[] = {
+    {.name = "opengl",
+     .title = "OpenGL native",
+     .shading = Shading::kNative,
+     .floor = kFloat32PointFloor},
+};
 
 constexpr double kMostOpenglExponent = 128;   // GL_SHININESS
 constexpr std::size_t kMostOpenglLights = 8;  // that every driver has
@@ -22,24 +29,29 @@ std::string why_not_in_opengl(const Scene& scene) {
   return "";
 }
 
-constexpr NativeEngine kOpengl{
-    kOpenglInfo,
+}  // namespace
+
+constinit const NativeEngine kOpengl{
+    {
+        .name = "opengl",
+        .title = "OpenGL fixed function",
+        .install_hint =
+            "sudo apt-get install libegl-dev libgl-dev libgl1-mesa-dri, and build Lobelia again",
+        .supported_versions = "1.5 to 4.6, with the compatibility profile",
+        .shading = "native: Blinn-Phong (RDF) with cos^n, n at most 128, grey",
+        .precision = "float32 throughout",
+        .effects = "one sphere, up to 8 directional and point lights; as averages: depth of field, "
+                   "antialiasing",
+        .plain = "float",
+        .floor = kFloat32PointFloor,
+        .seconds = {0.3, 1e-6},
+        .variants = kOpenglVariants,
+    },
     {"engine_opengl", "OpenGL ", [](int major, int) { return major >= 1 && major <= 4; }, nullptr,
      true},
     "OpenGL's own lighting, one point with the sphere's normal for each "
     "pixel",
     opengl_highlight,
     why_not_in_opengl};
-
-}  // namespace
-
-std::unique_ptr<Engine> make_opengl(const std::filesystem::path& program) {
-  return make_native_engine(kOpengl, program);
-}
-
-void keep_opengl_input(const Scene& scene, const ReferenceOptions& options,
-                       const std::filesystem::path& directory) {
-  keep_native_input(kOpengl, scene, options, directory);
-}
 
 }  // namespace lobelia

@@ -40,7 +40,6 @@ struct PassResult {
   EngineLog log;
   ProcessLimits limits{true, Containment::kPidNamespace};  ///< the weakest of its processes
   EngineCost cost;
-  double parse_seconds = 0, trace_seconds = 0;  ///< from POV-Ray's statistics, if asked for
 };
 
 /// One scene.
@@ -55,15 +54,6 @@ struct Job {
 /// The weaker of two processes' limits.
 ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b) {
   return {a.writes_limited && b.writes_limited, std::min(a.contained, b.contained)};
-}
-
-/// "  Trace Time:       0 hours  0 minutes  0 seconds (0.029 seconds)"; 0 for any other line.
-double seconds_in(std::string_view line, std::string_view what) {
-  const auto from = line.find('('), to = line.find(" seconds)");
-  double seconds = 0;
-  if (line.find(what) != line.npos && from != line.npos && to != line.npos && from < to)
-    parse_number(line.substr(from + 1, to - from - 1), seconds);
-  return seconds;
 }
 
 /// Admits enough processes, up to `most`, to keep the processors busy although each process mostly sleeps.
@@ -175,12 +165,7 @@ void PovraySession::run_pov(PassResult& result, const Job& job, const PovrayPass
   process.stop = &stop_;
   const std::string command = shell_join(arguments);
   result.log.add("$ " + command);
-  process.on_line = [&](std::string_view line) {
-    result.log.add(line);
-    if (!options_.stages) return;
-    result.parse_seconds += seconds_in(line, "Parse Time:") + seconds_in(line, "Bounding Time:");
-    result.trace_seconds += seconds_in(line, "Trace Time:");
-  };
+  process.on_line = [&](std::string_view line) { result.log.add(line); };
   ProcessResult ended;
   // POV-Ray waits a few seconds for its own thread to start, too short on a busy machine.
   constexpr std::string_view kSlowStart = "Timed out waiting for worker thread startup";
@@ -245,7 +230,7 @@ ReferenceResult PovraySession::render(const Scene& scene, std::size_t scenes) {
   std::vector<PassResult> passes(job.input.passes.size());
   job.film = scene.film;
   job.threads = std::max(1, processors_ / at_once(scenes * passes.size()));
-  job.options = povray_options(job.film, job.threads, options_.stages);
+  job.options = povray_options(job.film, job.threads);
   job.directory = directory_.path() / fmt::format("scene{}", begun_++);
   // Passes run side by side if there is room; otherwise other scenes do.
   for_each_at_once(
@@ -259,8 +244,6 @@ ReferenceResult PovraySession::render(const Scene& scene, std::size_t scenes) {
     result.log += pass.log.text();
     if (!all.failure) all.failure = pass.failure;
     all.cost.add(pass.cost);
-    all.parse_seconds += pass.parse_seconds;
-    all.trace_seconds += pass.trace_seconds;
     all.limits = weaker(all.limits, pass.limits);
     std::ranges::move(pass.commands, std::back_inserter(all.commands));
     images.push_back(std::move(pass.image));
@@ -282,10 +265,6 @@ ReferenceResult PovraySession::render(const Scene& scene, std::size_t scenes) {
   record_limits(record, all.limits);
   record.seconds.total = all.cost.seconds;
   record_cost(record, all.cost, job.threads);
-  if (options_.stages) {
-    record.seconds.parse = all.parse_seconds;
-    record.seconds.trace = all.trace_seconds;
-  }
   return result;
 }
 

@@ -238,7 +238,7 @@ PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options) {
   return input;
 }
 
-std::vector<std::string> povray_options(const Film& film, int threads, bool statistics) {
+std::vector<std::string> povray_options(const Film& film, int threads) {
   return {"Output_to_File=on",
           "Output_File_Type=E",  // OpenEXR: always half float
           fmt::format("Width={}", film.width), fmt::format("Height={}", film.height),
@@ -248,8 +248,7 @@ std::vector<std::string> povray_options(const Film& film, int threads, bool stat
           "Pause_When_Done=off",
           "Continue_Trace=off",  // never resume an older picture
           // Not All_Console, which would hide errors too.
-          "Debug_Console=off", "Render_Console=off",
-          statistics ? "Statistic_Console=on" : "Statistic_Console=off", "Verbose=off",
+          "Debug_Console=off", "Render_Console=off", "Statistic_Console=off", "Verbose=off",
           fmt::format("Work_Threads={}", threads)};
 }
 

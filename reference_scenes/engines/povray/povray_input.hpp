@@ -41,7 +41,7 @@ std::string povray_pass_stem(std::size_t pass);
 
 /// Options for the .ini file, "Width=64": all that affect the picture, because the system's or the user's povray.ini is
 /// read first. File names are not among them. With `statistics` POV-Ray reports times.
-std::vector<std::string> povray_options(const Film& film, int threads, bool statistics = false);
+std::vector<std::string> povray_options(const Film& film, int threads);
 
 /// All files with which `sh povray.sh` renders a scene, by name: pass0.pov, pass0.ini, include files.
 std::map<std::string, std::string> povray_files(const Scene& scene,

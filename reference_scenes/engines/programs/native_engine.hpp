@@ -14,7 +14,7 @@ namespace lobelia {
 
 /// What is different between them.
 struct NativeEngine {
-  const EngineInfo& info;
+  EngineInfo info;
   EngineProbe probe;
   std::string_view method;  ///< records::Reference::method
   /// The engine's own highlight with this model, lobe and exponent; none if it has no such.
@@ -22,6 +22,20 @@ struct NativeEngine {
   /// What else it cannot show, as a sentence; empty if it can.
   std::string (*why_not)(const Scene&) = nullptr;
 };
+
+// One file each, in the folder of its name.
+extern const NativeEngine kTachyon, kSunflow, kThree, kBabylon, kOpengl;
+
+/// Of an engine that is given points: the cosine is the product of two vectors in float32, of three components each; power
+/// and colour round some more.
+inline constexpr EngineFloor kFloat32PointFloor{.of_peak = 8 * kFloat32Rounding,
+                                                .of_cosine = 4 * kFloat32Rounding};
+
+/// The page decides the pictures of a program in a browser, too.
+inline std::vector<std::filesystem::path> page_of(const std::filesystem::path& program,
+                                                  std::string_view) {
+  return {program.string() + ".html"};
+}
 
 /// `engine` must outlive it.
 std::unique_ptr<Engine> make_native_engine(const NativeEngine& engine,

@@ -1,9 +1,17 @@
-#include "reference_scenes/engines/tachyon/tachyon.hpp"
-
+// Tachyon (J. Stone) as a reference engine: its own highlights by Phong, Blinn and Schlick, in double precision.
 #include "reference_scenes/engines/programs/native_engine.hpp"
 
 namespace lobelia {
 namespace {
+
+/// Double, in pictures of float32. Tachyon takes the light away below N.L = 1/512.
+constexpr EngineFloor kTachyonFloor{.of_peak = 2 * kFloat32Rounding, .least_cosine = 1.0 / 512};
+constexpr EngineVariant kTachyonVariants[] = {
+    {.name = "tachyon",
+     .title = "Tachyon native",
+     .shading = Shading::kNative,
+     .floor = kTachyonFloor},
+};
 
 /// None of Tachyon's highlights has a coefficient, nor a cosine.
 std::optional<OwnHighlight> tachyon_highlight(const Highlight& highlight) {
@@ -27,23 +35,28 @@ std::string why_not_in_tachyon(const Scene& scene) {
   return "";
 }
 
-constexpr NativeEngine kTachyon{
-    kTachyonInfo,
+}  // namespace
+
+constinit const NativeEngine kTachyon{
+    {
+        .name = "tachyon",
+        .title = "Tachyon",
+        .install_hint = "sudo apt-get install libtachyon-mt-0-dev, and build Lobelia again",
+        .supported_versions = "0.98 or 0.99",
+        .shading =
+            "native: Phong (RDF) with cos^n, Blinn-Phong (RDF) with cos^n or Schlick's lobe, grey",
+        .precision = "double; pictures in float32, which round by 6e-8 of the value",
+        .effects =
+            "spheres, planes, directional lights, shadows; as averages: depth of field, antialiasing",
+        .plain = "float",
+        .floor = kTachyonFloor,
+        .seconds = {0.02, 1e-6},
+        .variants = kTachyonVariants,
+    },
     {"engine_tachyon", "Tachyon ", [](int major, int minor) { return major == 0 && minor >= 98; },
      nullptr, true},
     "Tachyon's own highlight, by its library",
     tachyon_highlight,
     why_not_in_tachyon};
-
-}  // namespace
-
-std::unique_ptr<Engine> make_tachyon(const std::filesystem::path& program) {
-  return make_native_engine(kTachyon, program);
-}
-
-void keep_tachyon_input(const Scene& scene, const ReferenceOptions& options,
-                        const std::filesystem::path& directory) {
-  keep_native_input(kTachyon, scene, options, directory);
-}
 
 }  // namespace lobelia

@@ -17,7 +17,6 @@ struct Antialiasing {
   static constexpr double kSame = 1.0 / 32;
   /// A difference below this share of the brightest possible highlight is invisible.
   static constexpr double kBlack = 1e-5;
-  static constexpr std::string_view kWithout = "one ray a pixel, through its centre";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const int samples = scene.sampler.sample_count;
@@ -44,8 +43,6 @@ struct Antialiasing {
     }
     return {true, reason + "; " + plan.sample_reason};
   }
-
-  static void leave_out(Scene& scene, Experiment&) { scene.sampler.sample_count = 1; }
 };
 
 }  // namespace lobelia::effects

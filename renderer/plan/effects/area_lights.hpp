@@ -11,7 +11,6 @@ struct AreaLights {
   static constexpr std::string_view kName = "area_lights", kWork = "light samples",
                                     kHides =
                                         "a shadow's edge may be missed by all of a few samples";
-  static constexpr std::string_view kWithout = "points of the same power";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const auto lights = std::ranges::count_if(
@@ -24,11 +23,6 @@ struct AreaLights {
                                          ? "; each point draws one of them, by power and distance"
                                          : "")
                        : "no light has a size"};
-  }
-
-  static void leave_out(Scene& scene, Experiment&) {
-    for (Light& light : scene.lights)
-      if (const auto lamp = lamp_of_same_power(light)) light = light_of(*lamp);
   }
 };
 

@@ -10,7 +10,6 @@ namespace lobelia::effects {
 struct DepthOfField {
   static constexpr std::string_view kName = "depth_of_field", kWork = "points of the lens",
                                     kHides = "a blurred spot may be missed by all of a few samples";
-  static constexpr std::string_view kWithout = "a pinhole";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const bool on = scene.camera.aperture_radius > 0;
@@ -19,8 +18,6 @@ struct DepthOfField {
                              scene.camera.focus_distance)
                : "the camera is a pinhole"};
   }
-
-  static void leave_out(Scene& scene, Experiment&) { scene.camera.aperture_radius = 0; }
 };
 
 }  // namespace lobelia::effects

@@ -9,7 +9,6 @@ namespace lobelia::effects {
 
 struct Diffuse {
   static constexpr std::string_view kName = "diffuse", kWork = "evaluations", kHides = "";
-  static constexpr std::string_view kWithout = "black beneath the highlights";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const auto lambertian = std::ranges::count_if(
@@ -18,10 +17,6 @@ struct Diffuse {
             lambertian > 0 ? fmt::format("{} of {} materials have a diffuse reflectance",
                                          lambertian, scene.materials.size())
                            : "no material has a diffuse reflectance"};
-  }
-
-  static void leave_out(Scene& scene, Experiment&) {
-    for (Material& m : scene.materials) m.diffuse_reflectance = {};
   }
 };
 

@@ -11,7 +11,6 @@ struct Environment {
   static constexpr std::string_view kName = "environment", kWork = "directions",
                                     kHides =
                                         "a bright spot of it may be missed by all of a few samples";
-  static constexpr std::string_view kWithout = "black where no surface is";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     std::size_t constant = 0, images = 0;
@@ -24,8 +23,6 @@ struct Environment {
             on ? fmt::format("{} of one radiance, {} with an image", constant, images)
                : "no light comes from everywhere"};
   }
-
-  static void leave_out(Scene& scene, Experiment&) { std::erase_if(scene.lights, is_environment); }
 };
 
 }  // namespace lobelia::effects

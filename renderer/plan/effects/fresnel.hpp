@@ -9,7 +9,6 @@ namespace lobelia::effects {
 
 struct Fresnel {
   static constexpr std::string_view kName = "fresnel", kWork = "evaluations", kHides = "";
-  static constexpr std::string_view kWithout = "the same reflectance at every angle";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const auto reflecting = std::ranges::count_if(
@@ -18,10 +17,6 @@ struct Fresnel {
             reflecting > 0 ? fmt::format("{} of {} materials have a Fresnel factor", reflecting,
                                          scene.materials.size())
                            : "no material has a Fresnel factor"};
-  }
-
-  static void leave_out(Scene& scene, Experiment&) {
-    for (Material& m : scene.materials) m.fresnel = lobelia::Fresnel::kNone;
   }
 };
 

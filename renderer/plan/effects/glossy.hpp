@@ -10,7 +10,6 @@ namespace lobelia::effects {
 struct Glossy {
   static constexpr std::string_view kName = "glossy", kWork = "scattered rays",
                                     kHides = "a rare path may be missed by all of a few samples";
-  static constexpr std::string_view kWithout = "direct light and mirrors alone";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const bool all = policy == EffectPolicy::kAll;
@@ -29,8 +28,6 @@ struct Glossy {
                                           lamps)
                             : "")};
   }
-
-  static void leave_out(Scene& scene, Experiment&) { scene.depth.glossy = 0; }
 };
 
 }  // namespace lobelia::effects

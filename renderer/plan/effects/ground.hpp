@@ -10,7 +10,6 @@ namespace lobelia::effects {
 struct Ground {
   static constexpr std::string_view kName = "ground", kWork = "tests of ray and plane",
                                     kHides = "a plane's detail has no smallest size";
-  static constexpr std::string_view kWithout = "no planes";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const auto checkered = std::ranges::count_if(
@@ -20,8 +19,6 @@ struct Ground {
             on ? fmt::format("{} planes, {} with a checker", scene.planes.size(), checkered)
                : "there is no plane"};
   }
-
-  static void leave_out(Scene& scene, Experiment&) { scene.planes.clear(); }
 };
 
 }  // namespace lobelia::effects

@@ -10,7 +10,6 @@ namespace lobelia::effects {
 struct Mirror {
   static constexpr std::string_view kName = "mirror", kWork = "mirror rays",
                                     kHides = "what a mirror shows may be of any size";
-  static constexpr std::string_view kWithout = "no mirrors";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     plan.depth.mirror = scene.depth.mirror;
@@ -25,10 +24,6 @@ struct Mirror {
     if (scene.depth.mirror == 0) return {false, "a mirror_depth of 0 was asked for"};
     return {true, fmt::format("{} of {} materials are mirrors, followed up to {} times", mirrors,
                               scene.materials.size(), scene.depth.mirror)};
-  }
-
-  static void leave_out(Scene& scene, Experiment&) {
-    for (Material& m : scene.materials) m.mirror_reflectance = {};
   }
 };
 

@@ -9,13 +9,8 @@ namespace lobelia::effects {
 
 struct Shadows {
   static constexpr std::string_view kName = "shadows", kWork = "shadow rays", kHides = "";
-  static constexpr std::string_view kWithout = "light through everything";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
-    if (!plan.experiment.shadows) {
-      plan.occluders.assign(scene.lights.size(), {Occluders{}});
-      return {false, "left out, to see what they are worth"};
-    }
     plan.occluders = find_occluders(scene, plan.contacts, policy);
     std::size_t pairs = 0;
     bool uncounted = false;
@@ -37,8 +32,6 @@ struct Shadows {
             fmt::format("{} pairs of a surface and another that may stand between it and a light",
                         pairs)};
   }
-
-  static void leave_out(Scene&, Experiment& experiment) { experiment.shadows = false; }
 };
 
 }  // namespace lobelia::effects

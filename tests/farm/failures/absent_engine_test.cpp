@@ -105,7 +105,7 @@ TEST_F(AbsentEngine, IsAnErrorBeforeAnythingIsMadeIfEnginesAreRequiredOrItsProgr
   EXPECT_EQ(run_with_path().exit_code, 0);
 }
 
-TEST_F(AbsentEngine, ThatIsBrokenEndsTheFarmInOneLineAndChangesNothing) {
+TEST_F(AbsentEngine, EndsTheFarmInOneLineAndChangesNothingIfItIsBroken) {
   install(fake_povray());
   ASSERT_EQ(run_with_path().exit_code, 0);
   const auto before = everything_in(out()), cached = everything_in(cache());

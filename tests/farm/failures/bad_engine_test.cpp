@@ -94,7 +94,7 @@ TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
 
 using OddEngine = FailingFarm;
 
-TEST_F(OddEngine, ThatFailsAtFirstIsTriedAgainAndTheRecordSaysHowOften) {
+TEST_F(OddEngine, IsTriedAgainAndTheRecordSaysHowOften) {
   undisturbed();
   fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");
   const FarmRun only = run();
@@ -103,7 +103,7 @@ TEST_F(OddEngine, ThatFailsAtFirstIsTriedAgainAndTheRecordSaysHowOften) {
   EXPECT_EQ(read_json(result_of("n8", "reference-povray") / "result.json").at("attempts"), 1);
 }
 
-TEST_F(OddEngine, ThatIsKilledWhenItIsAskedItsVersionIsAskedAgain) {
+TEST_F(OddEngine, IsAskedForItsVersionAgainIfItWasKilled) {
   const std::string dies = "if " + first_times("failures", 1) + "; then kill -KILL $$; fi\n";
   const std::string well = read_file(fake_povray(), 1 << 20);
   script("povray", dies + well);
@@ -120,7 +120,7 @@ TEST_F(OddEngine, IsTriedNoMoreOftenThanWasAllowed) {
   expect_mended(run(), 1);
 }
 
-TEST_F(OddEngine, ThatGoesAwayInTheMiddleIsMissingAndWhenItComesBackGoesOn) {
+TEST_F(OddEngine, IsMissingWhileItIsAwayAndThenGoesOn) {
   undisturbed();
   fake_povray();
   // Cells come in the order n8, n32, n16, n64: the program is there for the version alone.
@@ -163,7 +163,7 @@ TEST_F(OddEngine, StopsNothingElseIfThatIsWanted) {
   expect_mended(run(), 3);
 }
 
-TEST_F(OddEngine, WhosePictureIsAnotherOneMakesCellsThatDiffer) {
+TEST_F(OddEngine, MakesCellsThatDifferByAnotherPicture) {
   undisturbed();
   // The picture of another cell.
   fake_povray(
@@ -243,7 +243,7 @@ TEST_F(OddEngine, KeepsNothingByWayOfALink) {
   expect_untouched();
 }
 
-TEST_F(OddEngine, ThatNeedsMoreMemoryGetsTwiceAsMuchOnce) {
+TEST_F(OddEngine, GetsTwiceTheMemoryOnce) {
   undisturbed();
   fake_povray(
       "[ $cell = n16 ] && { head -c 60000000 /dev/zero; sleep 3; } | tail -c 60000000 > "
@@ -262,7 +262,7 @@ TEST_F(OddEngine, IsNotNeededForAPictureOfOursThatIsTooLarge) {
   EXPECT_EQ(run({"--memory", "7M"}).exit_code, 0);
 }
 
-TEST_F(OddEngine, ThatFailsAtEverythingIsGivenUpUntilTheNextRun) {
+TEST_F(OddEngine, IsGivenUpUntilTheNextRunIfItAlwaysFails) {
   std::vector<std::string> exponents;
   for (int i = 1; i <= 60; ++i) exponents.push_back(std::to_string(i));
   grid(exponents);
@@ -286,7 +286,7 @@ TEST_F(OddEngine, ThatFailsAtEverythingIsGivenUpUntilTheNextRun) {
   expect_mended(run(), 60);
 }
 
-TEST_F(OddEngine, ThatFailsAtEverythingOnANodeLeavesTheRestToAnother) {
+TEST_F(OddEngine, LeavesTheRestToAnotherNodeIfItAlwaysFailsOnOne) {
   std::vector<std::string> exponents;
   for (int i = 1; i <= 60; ++i) exponents.push_back(std::to_string(i));
   const Grid read = read_grid(grid(exponents));

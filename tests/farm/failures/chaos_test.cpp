@@ -405,7 +405,7 @@ void Chaos::round(std::uint64_t seed) {
   for (const std::string& name : used_) ++rounds_with_[name];
 }
 
-TEST_F(Chaos, WhateverHappensTheSameCommandEndsAsIfNothingHad) {
+TEST_F(Chaos, ChangesNoResultOfTheSameCommand) {
   const std::uint64_t first = number_of("LOBELIA_RANDOM_SEED", 1);
   const auto end = std::chrono::steady_clock::now() +
                    std::chrono::seconds(number_of("LOBELIA_RANDOM_SECONDS", 60));

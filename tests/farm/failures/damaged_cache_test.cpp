@@ -1,4 +1,4 @@
-// What others, and disks, do to a cache.
+// Damage that other programs and disks do to a cache.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class DamagedCache : public FailingFarm {
   }
 };
 
-TEST_F(DamagedCache, OfWhateverFileIsMadeAgainAsFarAsItIsDamaged) {
+TEST_F(DamagedCache, IsMadeAgainAsFarAsAnyFileIsDamaged) {
   const std::pair<const char*, std::size_t> jobs[] = {
       {"render", 1}, {"reference-povray", 1}, {"compare-povray", 0}, {"profile", 0}};
   for (const auto& [job, pictures_lost] : jobs) {
@@ -52,7 +52,7 @@ TEST_F(DamagedCache, OfWhateverFileIsMadeAgainAsFarAsItIsDamaged) {
   }
 }
 
-TEST_F(DamagedCache, ThatNobodyNoticesIsFoundByVerifyAndMadeAgain) {
+TEST_F(DamagedCache, IsFoundByVerifyIfNobodyNoticesAndMadeAgain) {
   const fs::path file = result_of("n16", "reference-povray") / "povray.exr";
   const auto time = fs::last_write_time(file);
   flip_a_bit(file);
@@ -67,7 +67,7 @@ TEST_F(DamagedCache, ThatNobodyNoticesIsFoundByVerifyAndMadeAgain) {
   expect_mended(run(), 1);
 }
 
-TEST_F(DamagedCache, WithAnythingInPlaceOfAResultHasNoneThere) {
+TEST_F(DamagedCache, TakesNothingElseForAResult) {
   const fs::path outside = root() / "outside";
   const auto with = [&](const char* what, const auto& put) {
     SCOPED_TRACE(what);
@@ -137,7 +137,7 @@ TEST_F(DamagedCache, IsNotUsedIfItIsNoneOrHasAnotherLayout) {
   refused("later", 3);
 }
 
-TEST_F(DamagedCache, AndAFarmAreNotPutWhereTheyWouldBeTakenForEachOthersParts) {
+TEST_F(DamagedCache, IsNotPutWhereItWouldBeTakenForAPartOfAFarm) {
   for (const auto& [directory, cache_path] :
        {std::pair("other", "other/cells/cache"), std::pair("other", "other/cells"),
         std::pair("cache/making/other", "cache"), std::pair("cache/results", "cache")}) {

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = 1 << 28;
 
-/// Of whatever made it, when, and at what cost.
+/// Drops who made a record, when, and at what cost.
 void forget_circumstances(Json& record) {
   for (const char* key : {"seconds", "cpuSeconds", "peakMemoryBytes", "engineCommands", "command",
                           "host", "cache", "locks", "threads", "plan"})

@@ -32,7 +32,7 @@ Results everything_in(const fs::path& directory);
 /// The program at work.
 class RunningFarm {
  public:
-  /// What it prints goes to a file, or to `output`.
+  /// Its output goes to a file, or to `output`.
   RunningFarm(std::vector<std::string> arguments, const fs::path& directory,
               const std::vector<std::string>& environment = {}, const fs::path& output = {});
   ~RunningFarm();
@@ -98,7 +98,7 @@ class FailingFarm : public testing::Test {
   /// Shell words that are true so many times: the engine may write nothing that would count.
   std::string first_times(const std::string& name, int times);
 
-  /// What the farm of grid() comes to when nothing happens to it; made once.
+  /// The results of the farm of grid() when nothing happens to it; made once.
   const Results& undisturbed();
 
   /// After a second run: it ended well, with the undisturbed farm's results, and nothing half-written lies anywhere.

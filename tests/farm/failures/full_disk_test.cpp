@@ -34,7 +34,7 @@ class Disk : public FailingFarm {
   }
 };
 
-TEST_F(Disk, ThatIsFullEndsTheFarmWithOneLineAndWithRoomItGoesOn) {
+TEST_F(Disk, EndsTheFarmInOneLineWhenFullAndLetsItGoOnWithRoom) {
   // So small that nothing fits at all, then a bit more of it.
   for (const int kilobytes : {4, 16, 40, 60, 90, 120, 200}) {
     SCOPED_TRACE(kilobytes);
@@ -54,7 +54,7 @@ TEST_F(Disk, ThatIsFullEndsTheFarmWithOneLineAndWithRoomItGoesOn) {
   }
 }
 
-TEST_F(Disk, OfTheFarmsDirectoryMayBeFullToo) {
+TEST_F(Disk, MayBeFullWhereTheFarmsDirectoryIs) {
   fs::create_directories(out());
   for (const int kilobytes : {4, 40, 100}) {
     SCOPED_TRACE(kilobytes);
@@ -71,7 +71,7 @@ TEST_F(Disk, OfTheFarmsDirectoryMayBeFullToo) {
   }
 }
 
-TEST_F(Disk, ThatMayOnlyBeReadServesWhatItHas) {
+TEST_F(Disk, ServesWhatItHasIfItIsReadOnly) {
   ASSERT_EQ(run().exit_code, 0);
   fs::remove_all(out());
   const std::string said = in_namespace(
@@ -84,7 +84,7 @@ TEST_F(Disk, ThatMayOnlyBeReadServesWhatItHas) {
   EXPECT_THAT(said, HasSubstr("all whole\n0\n"));
 }
 
-TEST_F(Disk, ThatMayOnlyBeReadSaysSoWhereSomethingIsMissing) {
+TEST_F(Disk, SaysThatItIsReadOnlyWhereSomethingIsMissing) {
   ASSERT_EQ(run().exit_code, 0);
   fs::remove_all(result_of("n16", "reference-povray"));
   const std::string said = in_namespace(

@@ -9,6 +9,7 @@
 #include "farm/job_graph.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -54,17 +55,11 @@ TEST_F(HostileChunk, StartsNothingAndWritesNothingWithoutLeave) {
           {"versionCommand", {"sh", "-c", ": > started"}},
           {"ofValue", 0},
           {"ofPeak", 0}}}}});
-  try {
-    exec(chunk.dump(), {});
-    ADD_FAILURE() << "it was done";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_THAT(error.what(),
-                testing::AllOf(testing::HasSubstr("start '/evil/povray' as povray"),
-                               testing::HasSubstr("start 'sh evil.sh '{out}'' by engine mine"),
-                               testing::HasSubstr("write into the cache"),
-                               testing::HasSubstr("--allow-commands")));
-  }
+  EXPECT_THAT(error_words(ExitCode::kUsage, [&] { exec(chunk.dump(), {}); }),
+              testing::AllOf(testing::HasSubstr("start '/evil/povray' as povray"),
+                             testing::HasSubstr("start 'sh evil.sh '{out}'' by engine mine"),
+                             testing::HasSubstr("write into the cache"),
+                             testing::HasSubstr("--allow-commands")));
   EXPECT_FALSE(std::filesystem::exists(directory_.path() / "cache"));
   EXPECT_FALSE(std::filesystem::exists(directory_.path() / "started"));
 }
@@ -74,15 +69,10 @@ TEST_F(HostileChunk, IsNotDoneInPlaceOfTheOneThatWasPlanned) {
   const Sha256Digest planned = sha256(good_.dump());
   for (const std::string& other : {good_.dump() + " ", good_.dump(1), std::string()}) {
     write_file(file, other);
-    try {
-      exec_chunk(file, 1, Leave::of_user(true), planned);
-      ADD_FAILURE() << "it was done";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kInput);
-      EXPECT_THAT(error.what(),
-                  testing::AllOf(testing::HasSubstr("not the chunk that was submitted"),
-                                 testing::HasSubstr(hex(sha256(other)) + ", not " + hex(planned))));
-    }
+    EXPECT_THAT(
+        error_words(ExitCode::kInput, [&] { exec_chunk(file, 1, Leave::of_user(true), planned); }),
+        testing::AllOf(testing::HasSubstr("not the chunk that was submitted"),
+                       testing::HasSubstr(hex(sha256(other)) + ", not " + hex(planned))));
     EXPECT_FALSE(fs::exists(cache));
   }
   write_file(file, good_.dump());
@@ -100,7 +90,7 @@ TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
                          Json::object(),
                          Json::array({Json::object()})};
   for (const auto& [key, value] : good_.items()) {
-    // What only names another machine is handed back (chunk_test).
+    // A chunk that only names another machine is handed back (chunk_test).
     if (key == "madeBy" || key == "program" || key == "libraries") continue;
     Json without = good_;
     without.erase(key);

@@ -1,4 +1,4 @@
-// What decides a result is in its key: another engine under the same version, other libraries, other arithmetic.
+// A key has all that decides a result: the engine's files, its libraries, the arithmetic.
 #include <fstream>
 
 #include "core/text.hpp"
@@ -38,7 +38,7 @@ class Key : public FailingFarm {
       arguments.insert(arguments.end(), {"--povray", (root() / "povray").string()});
     return run_command(arguments, environment);
   }
-  /// What `more` does to the engine's files makes another engine of it, and undoing it the first one again.
+  /// Appending `more` to the engine's file makes another engine of it; undoing it gives the first one again.
   void expect_another_engine(const fs::path& file, const std::string& more) {
     const std::string before = read_file(file, 1 << 28);
     ASSERT_EQ(run().exit_code, 0);
@@ -186,7 +186,7 @@ TEST_F(Key, IsExplainedAsARecordToo) {
   EXPECT_FALSE(fs::exists(cache())) << "explaining makes nothing";
 }
 
-TEST_F(Key, OfACellThatDoesNotLieInTheFarmIsNotExplained) {
+TEST_F(Key, IsNotExplainedForACellOutsideTheFarm) {
   fake_povray();
   ASSERT_EQ(run().exit_code, 0);
   fs::create_directory_symlink("n16", out() / "cells" / "link");

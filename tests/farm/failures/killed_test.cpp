@@ -31,7 +31,7 @@ class KilledFarm : public FailingFarm {
   }
 };
 
-TEST_F(KilledFarm, AtAnyWriteLosesNothingButTheResultsThatWereNotThereYet) {
+TEST_F(KilledFarm, LosesOnlyUnfinishedResultsAtAnyWrite) {
   undisturbed();
   const fs::path count_file = root() / "calls";
   ASSERT_EQ(run_command(command(), dying("COUNT_CALLS=" + count_file.string())).exit_code, 0);
@@ -53,7 +53,7 @@ TEST_F(KilledFarm, AtAnyWriteLosesNothingButTheResultsThatWereNotThereYet) {
   EXPECT_GE(killed, std::size_t(kMoments) - 4) << "the last calls may not come in every run";
 }
 
-TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
+TEST_F(KilledFarm, EndsAfterManyKillsAsIfLeftAlone) {
   undisturbed();
   std::mt19937 random(1);
   for (int i = 0; i < 15; ++i) {
@@ -65,7 +65,7 @@ TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
   expect_mended(run());
 }
 
-TEST_F(KilledFarm, OfThousandsOfCellsIsInterruptedAndGoesOn) {
+TEST_F(KilledFarm, GoesOnAfterAnInterruptionWithThousandsOfCells) {
   std::vector<std::string> exponents;
   constexpr std::size_t kCells = 2000;
   for (std::size_t i = 1; i <= kCells; ++i) exponents.push_back(std::to_string(i));
@@ -98,7 +98,7 @@ TEST_F(KilledFarm, OfThousandsOfCellsIsInterruptedAndGoesOn) {
   expect_nothing_half_written();
 }
 
-TEST_F(KilledFarm, AndOneWhoseClockJumpsBackKeepToWhatIsThere) {
+TEST_F(KilledFarm, KeepsResultsThoughTheClockJumpsBack) {
   fs::path library;
   for (const auto& entry : fs::directory_iterator("/usr/lib"))
     if (const fs::path here = entry.path() / "faketime" / "libfaketimeMT.so.1"; fs::exists(here))

@@ -38,7 +38,7 @@ class LostCache : public FailingFarm {
   }
 };
 
-TEST_F(LostCache, AtRestIsMadeAgainWhateverOfItIsLost) {
+TEST_F(LostCache, IsMadeAgainWhateverOfItIsLostAtRest) {
   const auto without = [&](const std::vector<std::string>& parts) {
     SCOPED_TRACE(testing::PrintToString(parts));
     for (const auto& part : parts) fs::remove_all(cache() / part);
@@ -59,7 +59,7 @@ TEST_F(LostCache, AtRestIsMadeAgainWhateverOfItIsLost) {
   without({""});
 }
 
-TEST_F(LostCache, AtWorkIsHarmlessToTheRunOrToTheNext) {
+TEST_F(LostCache, HarmsNeitherTheRunNorTheNextOne) {
   const auto losing = [&](const std::string& what, const auto& lose) {
     SCOPED_TRACE(what);
     fs::remove_all(out());
@@ -130,7 +130,7 @@ TEST_F(LostCache, VerifyReadsTheFilesUnderCellsToo) {
   EXPECT_EQ(run_command({"farm", "verify", "out", "-q"}).exit_code, 0);
 }
 
-TEST_F(LostCache, WithAnEmptyDirectoryInPlaceOfACellsFileMakesTheFile) {
+TEST_F(LostCache, GivesWayToACellsFileWhereADirectoryIsEmpty) {
   const Results before = results_of(out());
   for (const char* name : {"scene.xml", "lobelia.exr", "cell.json"}) {
     const fs::path file = out() / "cells" / "n16" / name;
@@ -148,7 +148,7 @@ TEST_F(LostCache, WithAnEmptyDirectoryInPlaceOfACellsFileMakesTheFile) {
   }
 }
 
-TEST_F(LostCache, WithALinkInPlaceOfAnyPartIsRefusedAndWhatItLeadsToStays) {
+TEST_F(LostCache, IsRefusedWithALinkForAnyPartAndTheTargetStays) {
   const fs::path outside = root() / "outside";
   fs::create_directories(outside / "0123456789abcdef");
   fs::create_directories(outside / "n16");
@@ -262,7 +262,7 @@ TEST_F(LostCache, CleanAndAFarmKeepOutOfEachOthersWay) {
   expect_mended(run(), 0);
 }
 
-TEST_F(LostCache, OfAKilledFarmTheNextOneOrTheDoctorRemovesTemporariesAlsoEmptyOnes) {
+TEST_F(LostCache, LosesTheTemporariesOfAKilledFarmToTheNextOneOrTheDoctor) {
   fs::create_directory(root() / "tmp" / "lobelia-temporary-AbCd01");
   expect_mended(run(), 0);
   EXPECT_TRUE(fs::is_empty(root() / "tmp"));

@@ -90,7 +90,7 @@ TEST_F(RacingFarms, BeginThoughSomebodyAsksForTheStatusAllTheTime) {
   write_file(stop, "");
 }
 
-TEST_F(RacingFarms, AndGcTakeTurns) {
+TEST_F(RacingFarms, TakeTurnsWithGc) {
   ASSERT_EQ(run().exit_code, 0);
   fake_povray();
   for (int i = 0; i < 6; ++i) {

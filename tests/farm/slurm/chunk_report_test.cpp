@@ -86,7 +86,7 @@ TEST_F(ChunkReportFiles, AreNotWrittenThroughALink) {
   EXPECT_EQ(read_file(elsewhere / "1.json", 100), "precious");
 }
 
-TEST_F(ChunkReportFiles, ThatAreNoneAreProblemsAndNothingElse) {
+TEST_F(ChunkReportFiles, AreProblemsAndNothingElseIfTheyAreInvalid) {
   const std::string left = R"([{"engine": "povray", "why": "w"}])";
   report(0, "povray");
   fs::rename(file("0.json"), directory_.path() / "good.json");

@@ -96,7 +96,7 @@ TEST(Chunks, SpreadABatchOverNoMoreThanItsCostFills) {
 }
 
 /// Graham's bound for longest first: nobody is above the mean by more than one job.
-TEST(Chunks, OfOneBatchAreAboveTheirMeanByAtMostOneJob) {
+TEST(Chunks, ExceedTheMeanOfTheirBatchByAtMostOneJob) {
   int several = 0;
   for (unsigned seed = 0; seed < kCases; ++seed) {
     Case made = random_case(seed);

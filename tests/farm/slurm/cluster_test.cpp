@@ -8,6 +8,7 @@
 #include "farm/slurm/doctor.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/farm/slurm/toy_work.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -72,17 +73,12 @@ TEST_F(SlurmCluster, IsFoundFitByTheDoctor) {
         << doctor_text(checks);
 }
 
-TEST_F(SlurmCluster, ThatIsDrainedIsReportedAndNotWaitedFor) {
+TEST_F(SlurmCluster, IsReportedAndNotWaitedForWhenDrained) {
   ToyWork toy(directory.path(), 4, 0.1);
   cluster.drain("n[1-3]");
   options.stall = std::chrono::seconds(1);
-  try {
-    run_on_slurm(toy.work(), options);
-    ADD_FAILURE() << "it ended without an error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kEngine);
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("3 drain"), HasSubstr("State=RESUME")));
-  }
+  EXPECT_THAT(error_words(ExitCode::kEngine, [&] { run_on_slurm(toy.work(), options); }),
+              AllOf(HasSubstr("3 drain"), HasSubstr("State=RESUME")));
   cluster.resume("n[1-3]");
   const auto outcome = run_on_slurm(toy.work(), options);  // what it left in the queue
   EXPECT_TRUE(outcome.attached);

@@ -10,7 +10,6 @@ namespace lobelia {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
 using Verdict = DoctorCheck::Verdict;
 
 class Doctor : public FakeSlurm {
@@ -103,7 +102,7 @@ TEST_F(Doctor, SeesAJobThatEndsWithoutAnAnswerAndOneThatNeverStarts) {
   EXPECT_THAT(lines("cancelled").back(), HasSubstr("lobelia-doctor-"));
 }
 
-/// What a node with a fault of that kind would answer.
+/// The answer of a node with a fault of that kind.
 TEST_F(Doctor, SeesEachFaultOfANode) {
   const auto with = [&](const std::string& key, const std::string& value) {
     write_file(
@@ -126,7 +125,7 @@ TEST_F(Doctor, SeesEachFaultOfANode) {
   EXPECT_THAT(lock.advice, HasSubstr("one client"));
 }
 
-TEST_F(Doctor, OnANodeSeesALockThatIsGivenAwayTwice) {
+TEST_F(Doctor, SeesOnANodeALockThatIsGivenAwayTwice) {
   fs::create_directories(in("shared"));
   write_file(in("shared") / "token", "t");
   doctor_on_node(in("shared"));  // nobody holds it

@@ -1,4 +1,4 @@
-// What follows when Slurm ends elements, and when nodes hand work back, with programs that only pretend.
+// Elements that Slurm ends and work that nodes hand back, with programs that only pretend.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ class FakeSlurmEndings : public FakeSlurm {
 
 // ---- time and memory
 
-TEST_F(FakeSlurmEndings, AtTheTimeLimitGetTwiceTheTime) {
+TEST_F(FakeSlurmEndings, GetTwiceTheTimeAfterATimeLimit) {
   options.slurm.time = "1:00:00";
   elements_end("0|TIMEOUT|TimeLimit|n1", "--time=2:00:00");
   const auto outcome = run_on_slurm(toy.work(), options);
@@ -57,7 +57,7 @@ TEST_F(FakeSlurmEndings, AtTheTimeLimitGetTwiceTheTime) {
   EXPECT_EQ(record["arrays"][2]["time"], "2:00:00");
 }
 
-TEST_F(FakeSlurmEndings, AtTheTimeLimitGetNoMoreThanThePartitionHas) {
+TEST_F(FakeSlurmEndings, GetNoMoreTimeThanThePartitionHas) {
   options.slurm.time = "60";
   partition("MaxTime=01:30:00 MaxMemPerNode=UNLIMITED");
   elements_end("0|TIMEOUT|TimeLimit|n1", "never");
@@ -72,7 +72,7 @@ TEST_F(FakeSlurmEndings, AtTheTimeLimitGetNoMoreThanThePartitionHas) {
                                     "--chunk-seconds.\n")));
 }
 
-TEST_F(FakeSlurmEndings, AtATimeLimitThatNobodyAskedForAreToldOfTheOption) {
+TEST_F(FakeSlurmEndings, NameTheOptionAfterATimeLimitThatNobodyAskedFor) {
   elements_end("0|TIMEOUT|TimeLimit|n1", "never");
   run_on_slurm(toy.work(), options);
   EXPECT_THAT(said,
@@ -81,7 +81,7 @@ TEST_F(FakeSlurmEndings, AtATimeLimitThatNobodyAskedForAreToldOfTheOption) {
   for (const std::string& array : arrays()) EXPECT_THAT(array, Not(HasSubstr("--time")));
 }
 
-TEST_F(FakeSlurmEndings, OutOfMemoryGetTwiceTheMemoryUpToWhatANodeHas) {
+TEST_F(FakeSlurmEndings, GetTwiceTheMemoryUpToWhatANodeHas) {
   options.slurm.memory = "3G";
   elements_end("0|OUT_OF_MEMORY|OutOfMemory|n1", "--mem=8000M");
   EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
@@ -91,7 +91,7 @@ TEST_F(FakeSlurmEndings, OutOfMemoryGetTwiceTheMemoryUpToWhatANodeHas) {
                               "for 8000M instead of 6G.\n"));
 }
 
-TEST_F(FakeSlurmEndings, ThatOnlyTheLogCallsOutOfMemoryGetTwiceTheMemory) {
+TEST_F(FakeSlurmEndings, GetTwiceTheMemoryIfOnlyTheLogSaysSo) {
   options.slurm.memory = "1G";
   options.rounds = 2;
   fs::create_directories(toy.run_directory() / "log");
@@ -114,7 +114,7 @@ TEST_F(FakeSlurmEndings, ThatOnlyTheLogCallsOutOfMemoryGetTwiceTheMemory) {
   EXPECT_THAT(arrays().back(), HasSubstr("--mem=1G")) << "a link is not followed";
 }
 
-TEST_F(FakeSlurmEndings, OfAnEarlierClientsRoundGetTwiceWhatThatRoundAskedFor) {
+TEST_F(FakeSlurmEndings, GetTwiceWhatTheRoundOfAnEarlierClientAskedFor) {
   options.slurm.time = "1:00:00";
   options.rounds = 2;
   elements_end("0|TIMEOUT|TimeLimit|n1", "--time=4:00:00");
@@ -131,7 +131,7 @@ touch "$d/asked"; cat "$d/ended-$6" 2>/dev/null; exit 0)");
 
 // ---- other ends
 
-TEST_F(FakeSlurmEndings, WithoutAnyFaultOfTheirsAreJustTriedAgain) {
+TEST_F(FakeSlurmEndings, AreTriedAgainIfTheyAreNobodysFault) {
   options.slurm.time = "60";
   options.slurm.memory = "1G";
   for (const char* state : {"NODE_FAIL|NodeDown", "PREEMPTED|None", "BOOT_FAIL|None",
@@ -149,7 +149,7 @@ TEST_F(FakeSlurmEndings, WithoutAnyFaultOfTheirsAreJustTriedAgain) {
   }
 }
 
-TEST_F(FakeSlurmEndings, ThatSomebodyCancelledAreNotSubmittedAgainstThatWill) {
+TEST_F(FakeSlurmEndings, AreNotSubmittedAgainAfterACancellation) {
   for (const char* state : {"CANCELLED|None", "DEADLINE|DeadLine"}) {
     said.clear();
     fs::remove(in("submitted"));
@@ -165,7 +165,7 @@ TEST_F(FakeSlurmEndings, ThatSomebodyCancelledAreNotSubmittedAgainstThatWill) {
 
 // ---- nodes
 
-TEST_F(FakeSlurmEndings, OfAnEngineThatANodeHandsBackStayAwayFromThatNode) {
+TEST_F(FakeSlurmEndings, KeepAnEngineFromTheNodeThatHandedItBack) {
   toy.add({"other", 0, 0, "other"});
   options.chunks.target_seconds = 1e-3;
   options.slurm.raw = {"--exclude=m[1-2]"};
@@ -184,7 +184,7 @@ TEST_F(FakeSlurmEndings, OfAnEngineThatANodeHandsBackStayAwayFromThatNode) {
   EXPECT_EQ(said.find("No more jobs"), said.rfind("No more jobs"));
 }
 
-TEST_F(FakeSlurmEndings, OfAChunkThatANodeHandsBackStayAwayFromItWhateverTheyAre) {
+TEST_F(FakeSlurmEndings, KeepAllJobsOfAChunkFromTheNodeThatHandedItBack) {
   toy.add({"other", 0, 0, "other"});
   toy.add({"compared", 1, 0, "compare"});
   elements_end("0|COMPLETED|None|n1", "--exclude=n1");
@@ -194,7 +194,7 @@ TEST_F(FakeSlurmEndings, OfAChunkThatANodeHandsBackStayAwayFromItWhateverTheyAre
   EXPECT_THAT(arrays()[3], AllOf(HasSubstr("--exclude=n1"), HasSubstr("afterany:")));
 }
 
-TEST_F(FakeSlurmEndings, OfARunThatBeginsAnewTryEveryNode) {
+TEST_F(FakeSlurmEndings, TryEveryNodeInANewRun) {
   options.rounds = 1;
   elements_end("0|COMPLETED|None|n1", "never");
   run_with_reports({"n1"}, "");
@@ -203,7 +203,7 @@ TEST_F(FakeSlurmEndings, OfARunThatBeginsAnewTryEveryNode) {
   EXPECT_THAT(arrays()[1], Not(HasSubstr("--exclude")));
 }
 
-TEST_F(FakeSlurmEndings, ThatNoNodeIsLeftForAreGivenUpWithTheReason) {
+TEST_F(FakeSlurmEndings, GiveUpWithTheReasonWhereNoNodeIsLeft) {
   toy.add({"second", 0, 0, "toy"});
   toy.add({"other", 0, 0, "other"});
   options.chunks.target_seconds = 1e-3;
@@ -219,7 +219,7 @@ TEST_F(FakeSlurmEndings, ThatNoNodeIsLeftForAreGivenUpWithTheReason) {
   EXPECT_THAT(said, HasSubstr("2 jobs of toy given up: no node is left for it: n1"));
 }
 
-TEST_F(FakeSlurmEndings, ThatOnlyNodesOutOfUseAreLeftForAreGivenUpToo) {
+TEST_F(FakeSlurmEndings, GiveUpWhereOnlyNodesOutOfUseAreLeft) {
   fake("sinfo",
        "case \"$*\" in *-N*) echo 'n1|render*|up|idle|1'; echo 'n2|render*|up|drain|1';; "
        "*) echo 'render*|up|idle|2|0/4/0/4';; esac");
@@ -228,7 +228,7 @@ TEST_F(FakeSlurmEndings, ThatOnlyNodesOutOfUseAreLeftForAreGivenUpToo) {
   EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("(it broke); the others: n2 is drain"));
 }
 
-TEST_F(FakeSlurmEndings, ThatSlurmHasNoOtherNodeForAreGivenUpWithItsWords) {
+TEST_F(FakeSlurmEndings, GiveUpInSlurmsWordsWhereItHasNoOtherNode) {
   elements_end("0|COMPLETED|None|n1", "never");
   fs::rename(bin() / "sbatch", bin() / "sbatch.one");
   fake("sbatch", R"(
@@ -240,7 +240,7 @@ exec "$d/bin/sbatch.one" "$@")");
   EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("Requested node configuration is not"));
 }
 
-TEST_F(FakeSlurmEndings, AreKeptFromNoNodeThatSlurmHasNotOrThatIsNone) {
+TEST_F(FakeSlurmEndings, ExcludeNoNodeThatSlurmDoesNotHave) {
   elements_end("0|COMPLETED|None|n1", "--comment=lobelia 2-");
   toy.add({"second", 0, 0, "other"});
   options.chunks.target_seconds = 1e-3;
@@ -256,7 +256,7 @@ TEST_F(FakeSlurmEndings, AreKeptFromNoNodeThatSlurmHasNotOrThatIsNone) {
                           HasSubstr("'--wrap=reboot' is no name of a node")));
 }
 
-TEST_F(FakeSlurmEndings, KeepTheFileOfExcludedNodesOut) {
+TEST_F(FakeSlurmEndings, RefuseAFileOfExcludedNodes) {
   options.slurm.raw = {"--exclude=./nodes"};
   const auto [code, message] = failure();
   EXPECT_EQ(code, ExitCode::kUsage);

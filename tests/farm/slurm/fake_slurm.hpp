@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/farm/slurm/toy_work.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 
@@ -77,12 +78,8 @@ echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1)");
   }
   /// The error that the run ends with.
   std::pair<ExitCode, std::string> failure() {
-    try {
-      run_on_slurm(toy.work(), options);
-    } catch (const Error& error) {
-      return {error.code(), error.what()};
-    }
-    return {ExitCode::kSuccess, ""};
+    const Error error = thrown_by([&] { run_on_slurm(toy.work(), options); });
+    return {error.code(), error.what()};
   }
   void jobs(int count) {
     for (int i = 0; i < count; ++i) toy.add({fmt::format("job{:03}", i), 0, 0, "toy"});

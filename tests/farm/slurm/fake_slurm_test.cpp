@@ -31,7 +31,7 @@ TEST_F(FakeSlurm, SeesACleanEnvironment) {
   EXPECT_THAT(environment, AllOf(Not(HasSubstr("SBATCH")), Not(HasSubstr("DIR="))));
 }
 
-TEST_F(FakeSlurm, ThatHangsIsLeftAfterItsTimeLimit) {
+TEST_F(FakeSlurm, IsLeftAfterItsTimeLimitIfItHangs) {
   for (const char* name : {"sbatch", "squeue", "scancel", "scontrol", "sinfo"})
     fake(name, "sleep 60");
   const SlurmClient client(std::chrono::milliseconds(300));
@@ -44,7 +44,7 @@ TEST_F(FakeSlurm, ThatHangsIsLeftAfterItsTimeLimit) {
     EXPECT_THAT(why, HasSubstr("gave no answer in 0.3 s"));
 }
 
-TEST_F(FakeSlurm, ThatAnswersOddlyGivesNoAnswer) {
+TEST_F(FakeSlurm, GivesNoAnswerWithOddWords) {
   const SlurmClient client;
   for (const char* odd :
        {"echo 'slurm_load_jobs error: Socket timed out on send/recv operation' >&2; exit 1",
@@ -64,7 +64,7 @@ TEST_F(FakeSlurm, ThatAnswersOddlyGivesNoAnswer) {
 
 // ---- whole runs
 
-TEST_F(FakeSlurm, IsAskedForAnArrayOfPicturesThenForOneOfWhatReadsThemThenForTheEndAndOnlyOnce) {
+TEST_F(FakeSlurm, IsAskedOnceForPicturesThenComparisonsThenTheEnd) {
   jobs(6);
   toy.add({"compared", 1, 0, "compare"});
   options.slurm.partition = "render";
@@ -105,7 +105,7 @@ TEST_F(FakeSlurm, GetsWhatIsMissingAgainForThreeRoundsUnderNewNumbers) {
   EXPECT_EQ(lines("submitted").size(), 9u);
 }
 
-TEST_F(FakeSlurm, ThatRefusesIsQuotedAndNotAskedAgain) {
+TEST_F(FakeSlurm, IsQuotedAndNotAskedAgainAfterARefusal) {
   jobs(1);
   fake(
       "sbatch",
@@ -117,7 +117,7 @@ TEST_F(FakeSlurm, ThatRefusesIsQuotedAndNotAskedAgain) {
   EXPECT_EQ(lines("tries").size(), 1u);
 }
 
-TEST_F(FakeSlurm, ThatTookAJobWithoutSayingSoIsNotGivenItTwice) {
+TEST_F(FakeSlurm, GetsNoJobTwiceThatItTookInSilence) {
   jobs(1);
   options.finish = false;
   fs::rename(bin() / "sbatch", bin() / "sbatch.good");
@@ -131,7 +131,7 @@ echo '0|COMPLETED|None|n1')");
   EXPECT_EQ(lines("submitted").size(), 1u);
 }
 
-TEST_F(FakeSlurm, ThatFallsSilentIsWaitedForAndThatIsSaidOnce) {
+TEST_F(FakeSlurm, IsWaitedForWhenSilentWhichIsSaidOnce) {
   jobs(1);
   fs::rename(bin() / "squeue", bin() / "squeue.good");
   fake("squeue", R"(
@@ -147,7 +147,7 @@ exec "$d/bin/squeue.good" "$@")");
   EXPECT_THAT(said, HasSubstr("answers again"));
 }
 
-TEST_F(FakeSlurm, ThatDoesNotAnswerAtTheStartIsAnError) {
+TEST_F(FakeSlurm, IsAnErrorIfItDoesNotAnswerAtTheStart) {
   jobs(1);
   fake("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1");
   const auto [code, message] = failure();
@@ -156,7 +156,7 @@ TEST_F(FakeSlurm, ThatDoesNotAnswerAtTheStartIsAnError) {
   EXPECT_THAT(lines("submitted"), IsEmpty());
 }
 
-TEST_F(FakeSlurm, ThatIsNotThereIsNamed) {
+TEST_F(FakeSlurm, IsNamedIfItIsNotThere) {
   jobs(1);
   ::setenv("PATH", in("empty").c_str(), 1);
   const auto [code, message] = failure();
@@ -164,7 +164,7 @@ TEST_F(FakeSlurm, ThatIsNotThereIsNamed) {
   EXPECT_THAT(message, AllOf(HasSubstr("sbatch"), HasSubstr("sinfo"), HasSubstr("$PATH")));
 }
 
-TEST_F(FakeSlurm, WithLivingJobsOfTheRunIsAttachedToAndGivenNothing) {
+TEST_F(FakeSlurm, IsAttachedToAndGivenNothingWhileJobsOfTheRunLive) {
   jobs(1);
   fake("squeue", R"(
 case "$*" in *--me*) [ -e "$d/done" ] || echo '55|RUNNING|lobelia 1-0'; exit 0;; esac
@@ -190,7 +190,7 @@ TEST_F(FakeSlurm, HasOneClientForARun) {
               AllOf(HasSubstr("another client"), HasSubstr(std::to_string(::getpid()))));
 }
 
-TEST_F(FakeSlurm, WhereNothingRunsAndAllIsHeldEndsTheRunWithTheCommandsToType) {
+TEST_F(FakeSlurm, EndsTheRunWithCommandsToTypeWhereAllIsHeld) {
   jobs(1);
   options.stall = std::chrono::milliseconds(500);
   fake("squeue", R"(
@@ -204,7 +204,7 @@ echo '0|PENDING|launch failed requeued held|'; echo '1|REQUEUE_HOLD|job_requeued
   EXPECT_THAT(lines("cancelled"), IsEmpty());
 }
 
-TEST_F(FakeSlurm, WithoutANodeOfUseEndsTheRunWithItsStates) {
+TEST_F(FakeSlurm, EndsTheRunWithTheStatesOfNodesOutOfUse) {
   jobs(1);
   options.stall = std::chrono::milliseconds(500);
   fake("squeue", "case \"$*\" in *--me*) exit 0;; esac; echo '0|PENDING|Resources|'");
@@ -215,7 +215,7 @@ TEST_F(FakeSlurm, WithoutANodeOfUseEndsTheRunWithItsStates) {
               AllOf(HasSubstr("3 drain"), HasSubstr("sinfo -R"), HasSubstr("State=RESUME")));
 }
 
-TEST_F(FakeSlurm, WhereSomethingCanStillRunIsWaitedFor) {
+TEST_F(FakeSlurm, IsWaitedForWhileSomethingCanStillRun) {
   jobs(1);
   options.stall = std::chrono::milliseconds(200);
   // Held, but one runs; then none runs, but a node is of use; then it is gone.
@@ -227,7 +227,7 @@ elif [ $n -lt 10 ]; then echo '0|PENDING|JobHeldUser|'; echo '1|PENDING|ReqNodeN
   EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
 }
 
-TEST_F(FakeSlurm, ThatRunsSomethingNowAndThenHasNotStalled) {
+TEST_F(FakeSlurm, HasNotStalledWhileItRunsSomethingNowAndThen) {
   jobs(1);
   options.first_poll = options.last_poll = std::chrono::milliseconds(20);
   options.stall = std::chrono::seconds(4);
@@ -263,7 +263,7 @@ touch "$d/waits"; echo '0|RUNNING|None|n1')");
   }
 }
 
-TEST_F(FakeSlurm, ThatDoesNotCancelIsLeftByASecondCtrlCThatNamesTheJobs) {
+TEST_F(FakeSlurm, IsLeftByASecondCtrlCThatNamesTheJobs) {
   jobs(1);
   fake("sbatch", "echo 100");
   fake("squeue",
@@ -365,7 +365,7 @@ TEST_F(FakeSlurm, FindsARunByEachPathOfItsDirectoryAndByTheNameOfEarlierVersions
   EXPECT_NE(slurm_status(toy.run_directory()).foreign, "");
 }
 
-TEST_F(FakeSlurm, LeftAloneAfterSubmissionIsNotWaitedForOrCancelledAndTellsHowTheRunStands) {
+TEST_F(FakeSlurm, IsNotWaitedForWhenDetachedAndTellsHowTheRunStands) {
   jobs(1);
   EXPECT_EQ(slurm_status(toy.run_directory()).name, "");
   options.detach = true;

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <utility>
 
-#include "core/error.hpp"
 #include "farm/slurm/slurm_farm.hpp"
 #include "records/record.hpp"
 #include "tests/farm/farm_fixture.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -35,24 +35,18 @@ class HostileRun : public FarmTest {
   /// How the run ends: its exit code, and why.
   std::pair<ExitCode, std::string> attached(const Leave& leave = {}) const {
     records::write_record(slurm_run_directory(out()) / "run.json", record_);
-    try {
-      attach_to_slurm_run(out(), {}, leave);
-    } catch (const Error& error) {
-      return {error.code(), error.what()};
-    }
-    return {ExitCode::kSuccess, ""};
+    const Error error = thrown_by([&] { attach_to_slurm_run(out(), {}, leave); });
+    return {error.code(), error.what()};
   }
   /// The same of its last element, as it was submitted or after the record was changed.
   std::pair<ExitCode, std::string> finished(const Leave& leave = {},
                                             const records::FarmRun* planned = nullptr) const {
     records::FarmRun hashed = planned ? *planned : record_;
     hashed.command.clear();
-    try {
+    const Error error = thrown_by([&] {
       finish_slurm_run(slurm_run_directory(out()), sha256(records::record_text(hashed)), leave);
-    } catch (const Error& error) {
-      return {error.code(), error.what()};
-    }
-    return {ExitCode::kSuccess, ""};
+    });
+    return {error.code(), error.what()};
   }
   bool is_untouched() const { return files_in_farm() == 1 && !fs::exists(here("started")); }
   std::size_t files_in_farm() const {

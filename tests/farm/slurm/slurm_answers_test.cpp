@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "farm/slurm/slurm_options.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -42,7 +43,7 @@ TEST(SlurmAnswers, CountTheElementsOfAnArrayInEveryForm) {
     EXPECT_FALSE(count_of_array_tasks(text)) << text;
 }
 
-TEST(SlurmAnswers, OfSqueueAreElementsWithStateReasonAndNodes) {
+TEST(SlurmAnswers, NameElementsWithStateReasonAndNodesFromSqueue) {
   const auto elements = parse_elements(Lines{
       "0|RUNNING|None|n1", "7|PENDING|Resources|", "[8-9%2]|PENDING|launch failed requeued held|",
       "squeue: warning: something", "3|COMPLETED|None|n2", "4|NODE_FAIL|None|n[1-2]",
@@ -62,7 +63,7 @@ TEST(SlurmAnswers, OfSqueueAreElementsWithStateReasonAndNodes) {
   EXPECT_TRUE(parse_elements({})->empty());
 }
 
-TEST(SlurmAnswers, ThatAreCutOrOddAreNoAnswers) {
+TEST(SlurmAnswers, AreNoneIfTheyAreCutOrOdd) {
   for (const char* line : {"3|RUNN", "3|RUNNING|None", "3", "|RUNNING|None|n1", "3||None|n1",
                            "x|RUNNING|None|n1", "3|running|None|n1", "<html>", "3 RUNNING None n1",
                            "slurm_load_jobs error: Socket timed out on send/recv operation"})
@@ -78,7 +79,7 @@ TEST(SlurmAnswers, ThatAreCutOrOddAreNoAnswers) {
   EXPECT_FALSE(parse_config(Lines{"nothing here"}));
 }
 
-TEST(SlurmAnswers, OfSbatchAreOneNumberAmongWarnings) {
+TEST(SlurmAnswers, AreOneNumberAmongWarningsFromSbatch) {
   EXPECT_EQ(parse_submission(Lines{"12"}), 12u);
   EXPECT_EQ(parse_submission(Lines{"sbatch: warning: x", "12;cluster"}), 12u);
   for (const Lines& lines : {Lines{}, Lines{"0"}, Lines{"-1"}, Lines{"Submitted batch job 12"},
@@ -111,7 +112,7 @@ TEST(SlurmAnswers, SayWhichNodesAreOfUse) {
   EXPECT_FALSE(nodes->at(7).up);
 }
 
-TEST(SlurmAnswers, OfTheConfigurationAreKeysAndValues) {
+TEST(SlurmAnswers, AreKeysAndValuesOfTheConfiguration) {
   const auto config =
       parse_config(Lines{"Configuration data as of 2026-11-21", "KillWait                = 30 sec",
                          "MaxArraySize            = 1001", "Slurmctld(primary) at vm is UP"});
@@ -120,7 +121,7 @@ TEST(SlurmAnswers, OfTheConfigurationAreKeysAndValues) {
   EXPECT_EQ(config->at("MaxArraySize"), "1001");
 }
 
-TEST(SlurmAnswers, OfRandomBytesAreReadOrRefusedAndNothingWorse) {
+TEST(SlurmAnswers, AreReadOrRefusedFromRandomBytes) {
   std::mt19937 random(1);
   const std::string alphabet = "0123456789|[]-,%:;*/ =ADEGINPRU_\n\t\x01\xff";
   for (int i = 0; i < 50000; ++i) {
@@ -171,16 +172,11 @@ TEST(SlurmOptions, AskForMemoryForAJobOnEachProcessorAndForTheProgram) {
   EXPECT_EQ(memory_of_element(0, 4), "") << "any amount is not asked for";
 }
 
-TEST(SlurmOptions, ThatWouldBreakTheRunAreRefused) {
+TEST(SlurmOptions, AreRefusedIfTheyWouldBreakTheRun) {
   const auto refused = [](auto change) {
     SlurmOptions options;
     change(options);
-    try {
-      sbatch_arguments(options);
-    } catch (const Error& error) {
-      return error.code() == ExitCode::kUsage;
-    }
-    return false;
+    return thrown_by([&] { sbatch_arguments(options); }).code() == ExitCode::kUsage;
   };
   for (const char* raw : {"-n4", "script.sh", "--", "", "--x\n--y", "--array=0-3", "--job-name=a",
                           "--wrap=id", "--output=x", "--dependency=singleton", "--depend=x",

@@ -97,7 +97,7 @@ exit ${failed:-0}
   /// Why, by name.
   const std::map<std::string, std::string>& given_up() const { return given_up_; }
 
-  /// What lies in results/, hidden files too, of which one may go while we look.
+  /// Names in results/, hidden files too. One may go while we look.
   std::map<std::string, std::string> results() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(directory_ / "results"))
@@ -115,7 +115,7 @@ exit ${failed:-0}
     if (!fs::exists(directory_ / "started")) return {};
     return split(read_file(directory_ / "started", 1 << 20), "\n");
   }
-  /// What `farm finish` counted; empty if it has not run.
+  /// The count of `farm finish`; empty if it has not run.
   std::string finished() const {
     const fs::path path = directory_ / "finished";
     return fs::exists(path) ? read_file(path, 100) : "";
@@ -151,7 +151,7 @@ inline bool eventually(const std::function<bool()>& condition) {
 /// A client in a process of its own, to be killed and interrupted.
 class ClientProcess {
  public:
-  /// What it says and how it ends goes to `log`.
+  /// Its output and its end go to `log`.
   ClientProcess(const SlurmWork& work, const SlurmRunOptions& options, const fs::path& log) {
     pid_ = ::fork();
     if (pid_ != 0) return;

@@ -47,7 +47,7 @@ TEST(DirectionalAlbedo, IsTheSumOverAGridOfDirections) {
     }
 }
 
-TEST(DirectionalAlbedo, OfTheFirstPowerOfTheCosineIsTheSkyAsATiltedPlaneSeesIt) {
+TEST(DirectionalAlbedo, IsForTheFirstPowerTheSkyAsATiltedPlaneSeesIt) {
   // Phong (RDF) with n = 1 is L.R / pi: the irradiance on a plane with the normal R, of which
   // (1 + cos) / 2 sees the sky. The lobe and the horizon cut each other at every incidence.
   const Highlight h{*find_model("phong_rdf"), *find_lobe("cosine"), Normalisation::kExact, 1};
@@ -81,7 +81,7 @@ bool is_a_surface(const Highlight& h) {
   return !(info(h.model).has_shadowing && info(h.lobe).name == "schlick" && h.exponent >= 16);
 }
 
-TEST(EveryModel, WithItsExactCoefficientSendsNoMoreToAnyEyeThanTheSkyHolds) {
+TEST(EveryModel, SendsNoMoreToAnyEyeThanTheSkyHolds) {
   for (const Highlight& h :
        some_of(highlights(every_model(), std::vector{0.1, 16.0, 1024.0, 1e6}), 5)) {
     const AlbedoPeak peak = largest_albedo(h);
@@ -120,7 +120,7 @@ TEST(LargestAlbedo, IsReachedWhereItSaysAndExceededNowhere) {
   }
 }
 
-TEST(LargestAlbedo, OfLightHasTheFiguresOfTheConventions) {
+TEST(LargestAlbedo, HasTheFiguresOfTheConventions) {
   const auto of_light = [](const char* model) {
     return largest_albedo_of_light(
         {*find_model(model), *find_lobe("cosine"), Normalisation::kExact, 16});

@@ -1,4 +1,4 @@
-// What the laws are held to: the catalogues, crossed. A model or a lobe that joins its catalogue is
+// Cases of the laws: the catalogues, crossed. A model or a lobe that joins its catalogue is
 // tested by every law without a line of test code.
 #pragma once
 

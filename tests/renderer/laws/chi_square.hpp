@@ -151,7 +151,7 @@ class ChiSquare {
         few_expected += expected[i];
       }
     }
-    // Of too few even together, more than a handful would be wrong.
+    // Where too few are expected even together, more than a handful are wrong.
     if (few_expected >= 5)
       add(few_drawn, few_expected);
     else if (few_drawn > 30)

@@ -374,7 +374,7 @@ TEST(ALightOnASurface, IsTheLimitOfOneThatComesNearToItsBrightSide) {
       int apart = 0;
       for (std::size_t i = 0; i < here.values().size(); ++i)
         apart += std::abs(here.values()[i] - there.values()[i]) > 0.02 * mean(there);
-      // Of a few paths a hair decides where they turn.
+      // A hair decides where a few paths turn.
       EXPECT_LT(apart, 0.02 * double(here.values().size()));
     }
 }

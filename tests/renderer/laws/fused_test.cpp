@@ -54,7 +54,7 @@ bool lit(const Scene& scene) {
   return std::any_of(image.values().begin(), image.values().end(), [](float v) { return v > 0; });
 }
 
-TEST(Fused, EveryHighlightPrecisionLightAndEffectIsBitForBitThePictureOfTheKernelsOneByOne) {
+TEST(Fused, EveryHighlightLightAndEffectIsBitForBitThatOfSingleKernels) {
   const std::vector<std::vector<Light>> lightings = {
       {white()}, {directional()}, {point()}, {directional(), point()}, {point(), white(), point()}};
   std::size_t number = 0;

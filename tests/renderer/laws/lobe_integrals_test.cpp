@@ -1,4 +1,4 @@
-// What each lobe says of its own integrals, against quadrature: moments, density, samples.
+// The integrals that each lobe states, against quadrature: moments, density, samples.
 #include <limits>
 
 #include "renderer/lobes/catalogue.hpp"

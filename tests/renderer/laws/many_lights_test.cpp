@@ -1,4 +1,4 @@
-// Of many lights one is drawn at a time. That changes the noise, and nothing else.
+// One of many lights is drawn at a time. That changes the noise, and nothing else.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -28,7 +28,7 @@ double normalised_integral(const Highlight& h) {
   return 2 * kPi * integrate(integrand, 1 / std::sqrt(h.exponent), kPi / 2);
 }
 
-TEST(EveryModel, WithItsExactCoefficientIsNormalisedAsItsCatalogueEntrySays) {
+TEST(EveryModel, IsNormalisedByItsExactCoefficientAsItsEntrySays) {
   for (const Highlight& h : highlights(every_model(), kExponents))
     EXPECT_NEAR(normalised_integral(h), 1, 3e-10) << text(h);
 }

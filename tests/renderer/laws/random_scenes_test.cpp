@@ -51,7 +51,7 @@ std::string wrong_counts(const RenderResult& r, std::string_view policy) {
   return wrong;
 }
 
-TEST(RandomScenes, WithEveryEffectForcedAreTheSameBitForBitWhereNothingIsRandom) {
+TEST(RandomScenes, AreTheSameBitForBitWithEveryEffectForced) {
   int lit = 0;
   expect_of_random_scenes(SceneKind::kExact, 400, [&](const Scene& scene, Random&) {
     const RenderResult planned = render(scene, with(EffectPolicy::kAsCalledFor)),
@@ -250,7 +250,7 @@ TEST(RandomScenes, AreTheSameBitForBitByFusedKernelsAndInAnyNumberOfThreads) {
   expect_of_random_scenes(SceneKind::kAny, 100, law);
 }
 
-/// What a record says of the render, but for its times.
+/// The record of the render, but for its times.
 std::string figures(const RenderResult& r) {
   return fmt::format("{} samples, error {:.17g}, stopped {}, rays {} {} {} {}, work {}", r.samples,
                      r.error.value_or(-1), r.stop_reason, r.work.camera_rays, r.work.shadow_rays,
@@ -330,7 +330,7 @@ struct Sums {
   double variance_of_mean() const { return spread / (count - 1) / count; }
 };
 
-TEST(RandomScenes, WithEveryEffectForcedAreAsBrightWithinTheNoise) {
+TEST(RandomScenes, AreAsBrightWithinTheNoiseWithEveryEffectForced) {
   int noisy = 0;
   expect_of_random_scenes(SceneKind::kAny, 120, [&](const Scene& random_one, Random& random) {
     Scene scene = random_one;

@@ -23,11 +23,11 @@ const kDefaults = {
   a: '', b: '', mode: 'slide', shown: 'a', ev: '', colour: '', gain: '0', measure: 'absolute',
   x: '', y: '', z: '', at: '', split: '50', line: '', scale: 'linear', region: '',
 };
-export type ViewerState = HashState<keyof typeof kDefaults>;
-export const viewerState = (): ViewerState => new HashState(kDefaults);
+export type LinkState = HashState<keyof typeof kDefaults>;
+export const linkState = (): LinkState => new HashState(kDefaults);
 
 export class Choice {
-  constructor(readonly data: CellPage, readonly state: ViewerState) {}
+  constructor(readonly data: CellPage, readonly state: LinkState) {}
 
   /** Indices of the engines that have a picture. */
   engines(): number[] {

@@ -1,18 +1,18 @@
 // What the viewer shows, as a figure: the picture, its colour bar, a caption, and the pixels' values.
 import { fileName } from '../lib/figure_text';
 import type { FigureSource } from '../lib/figure';
-import type { Bar } from '../lib/figure_svg';
+import type { Bar, PictureParts } from '../lib/figure_svg';
 import { numberText, percentText } from '../lib/numbers';
 import { kMeasures } from './choice';
 import { colourAt } from './colours';
 import { valueOfMap } from './maps';
-import { kDecades, type Viewer } from './viewer';
+import { kDecades, type ViewerState } from './viewer_state';
 
 const grey = (v: number): string => `rgb(${[0, 0, 0].map(() => Math.round(255 * v)).join(' ')})`;
 const encoded = (v: number): number => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
-/** The colour of a signed difference, as gl_painter.ts paints it. */
+/** The colour of a signed difference, as float_painter.ts paints it. */
 function signedColour(share: number): string {
   const mean = 2 * share - 1, strength = Math.sqrt(Math.abs(mean)), end = mean > 0 ? [1, 0.45, 0.2] : [0.3, 0.65, 1];
   return `rgb(${end.map((c) => Math.round(255 * (0.06 * (1 - strength) + c * strength))).join(' ')})`;
@@ -25,8 +25,8 @@ const logarithmic = (top: number, label: string, colour: Bar['colour']): Bar => 
   ticks: Array.from({ length: kDecades + 1 }, (_, i) => ({ share: i / kDecades, label: numberText(top * 10 ** (i - kDecades)) })),
 });
 
-export function barOf(viewer: Viewer, a: number, b: number): Bar {
-  const { choice } = viewer, isFalse = choice.state.get('colour') === 'false' && viewer.isFloat, map = viewer.mapOf(a, b);
+export function barOf(viewer: ViewerState, a: number, b: number): Bar {
+  const { choice } = viewer, isFalse = viewer.isFalseColour(), map = viewer.mapOf(a, b);
   if (map) {
     const colour = (share: number): string => colourAt('magma', share);
     return (isFalse ? logarithmic : linear)(viewer.white(a, b), map.title, colour);
@@ -43,14 +43,14 @@ export function barOf(viewer: Viewer, a: number, b: number): Bar {
 }
 
 /** The pixels that the stage shows of the picture. */
-function shownPixels(viewer: Viewer): { left: number; top: number; right: number; bottom: number } {
+function shownPixels(viewer: ViewerState): { left: number; top: number; right: number; bottom: number } {
   const { camera } = viewer, view = camera.view(), pane = camera.rectangles()[0]!, { width, height } = camera.size;
   const inside = (v: number, most: number): number => Math.max(0, Math.min(most, v));
   return { left: inside(Math.floor(view.x), width), top: inside(Math.floor(view.y), height),
     right: inside(Math.ceil(view.x + pane.width / view.zoom), width), bottom: inside(Math.ceil(view.y + pane.height / view.zoom), height) };
 }
 
-function* rowsOf(viewer: Viewer, a: number, b: number): Generator<(string | number)[]> {
+function* rowsOf(viewer: ViewerState, a: number, b: number): Generator<(string | number)[]> {
   const { left, top, right, bottom } = shownPixels(viewer), { pictures, choice } = viewer, map = viewer.mapOf(a, b);
   const name = (i: number): string => choice.data.engines[i]!.name, rgb = (of: string): string[] => ['r', 'g', 'b'].map((c) => `${of}.${c}`);
   yield map ? ['x', 'y', map.title] : ['x', 'y', ...rgb(name(a)), ...rgb(name(b)), ...rgb('difference')];
@@ -61,10 +61,11 @@ function* rowsOf(viewer: Viewer, a: number, b: number): Generator<(string | numb
         : [x, y, ...pictures.valueAt(a, x, y) ?? none, ...pictures.valueAt(b, x, y) ?? none, ...pictures.differenceAt(a, b, x, y) ?? none];
 }
 
-export function figureOf(viewer: Viewer): FigureSource {
+/** `painted`: what the stage shows. */
+export function figureOf(viewer: ViewerState, painted: Omit<PictureParts, 'bar' | 'tags'>): FigureSource {
   const { choice, data, camera } = viewer, a = choice.engine('a'), b = choice.engine('b'), mode = choice.mode(), map = viewer.mapOf(a, b);
-  const engine = (i: number): string => data.engines[i]?.title ?? '', isFlipped = mode === 'flip' && choice.state.get('shown') === 'b';
-  const shown = isFlipped ? b : a, measure = kMeasures.find((m) => m.value === choice.measure())!.label;
+  const engine = (i: number): string => data.engines[i]?.title ?? '', shown = viewer.isFlipped() ? b : a;
+  const measure = kMeasures.find((m) => m.value === choice.measure())!.label;
   const what = map ? map.title : mode === 'diff' ? measure : 'radiance';
   const title = mode === 'flip' ? engine(shown) : mode === 'diff' ? `${what}, a = ${engine(a)}, b = ${engine(b)}` : `${engine(a)} and ${engine(b)}`;
   const worst = viewer.worstPixel(a, b), bar = barOf(viewer, a, b);
@@ -83,6 +84,6 @@ export function figureOf(viewer: Viewer): FigureSource {
     title: `${data.label || data.id}: ${title}`,
     caption: words.join('. ') + '.',
     ...(viewer.isFloat ? { csv: { what: map ? `${map.title} at ${numberText(count, 7)} pixels` : `both pictures and their difference at ${numberText(count, 7)} pixels`, rows: () => rowsOf(viewer, a, b) } } : {}),
-    content: { ...viewer.painted(), bar, tags: mode === 'side' || mode === 'slide' ? [engine(a), engine(b)] : [] },
+    content: { ...painted, bar, tags: mode === 'side' || mode === 'slide' ? [engine(a), engine(b)] : [] },
   };
 }

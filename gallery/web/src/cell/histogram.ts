@@ -3,7 +3,7 @@ import { Chart } from '../lib/chart';
 import { h } from '../lib/dom';
 import { numberText } from '../lib/numbers';
 import type { FloatPictures } from './float_pictures';
-import type { Viewer } from './viewer';
+import type { ViewerState } from './viewer_state';
 
 const kBinsOfStop = 2, kStops = 24;
 
@@ -29,7 +29,7 @@ export class Histogram {
 
   constructor(repaint: () => void) { this.box.addEventListener('toggle', repaint); }
 
-  show(viewer: Viewer, a: number, b: number): void {
+  show(viewer: ViewerState, a: number, b: number): void {
     this.element.hidden = !viewer.isFloat;
     const loaded = [...new Set([a, b])].filter((i) => viewer.pictures.all.has(i)), key = loaded.join(' ');
     if (!this.box.open || !viewer.isFloat || key === this.shown || loaded.length === 0) return;

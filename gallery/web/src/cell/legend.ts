@@ -2,14 +2,14 @@
 import { h } from '../lib/dom';
 import { numberText, percentText } from '../lib/numbers';
 import { cssGradient } from './colours';
-import { kDecades, type Viewer } from './viewer';
+import { kDecades, type ViewerState } from './viewer_state';
 
 const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.cpp
 
-export function legendOf(viewer: Viewer, a: number, b: number): (HTMLElement | string)[] {
+export function legendOf(viewer: ViewerState, a: number, b: number): (HTMLElement | string)[] {
   const mode = viewer.choice.mode();
   const ramp = h('span', { class: 'ramp' });
-  const isFalse = viewer.choice.state.get('colour') === 'false' && viewer.isFloat;
+  const isFalse = viewer.isFalseColour();
   const map = viewer.mapOf(a, b);
   if (map) {
     const white = viewer.white(a, b), { least, block, mantissaBits } = map.picture;
@@ -34,14 +34,14 @@ export function legendOf(viewer: Viewer, a: number, b: number): (HTMLElement | s
 }
 
 /** Why the difference of values is shown in place of a chosen map. */
-function missingMap(viewer: Viewer): HTMLElement | undefined {
+function missingMap(viewer: ViewerState): HTMLElement | undefined {
   const asked = viewer.choice.mapAsked(), there = asked && viewer.choice.comparison(viewer.choice.engine('a'), viewer.choice.engine('b'))?.maps.some((m) => m.id === asked.value);
   return !asked ? undefined : h('span', {}, there ? viewer.isFloat ? `${asked.label} is on its way` : `${asked.label} needs float pictures`
     : `|a − b|: ${asked.label} was made of ours and each engine`);
 }
 
 /** The precision of a difference on this page, which stores differences from ours. */
-function precisionNote(viewer: Viewer, a: number, b: number): HTMLElement {
+function precisionNote(viewer: ViewerState, a: number, b: number): HTMLElement {
   const stored = [a, b].flatMap((i) => { const p = viewer.pictures.all.get(i); return p?.fromOurs ? [p] : []; });
   if (stored.length === 0) return h('span', {}, viewer.isFloat || a === b ? '' : 'the recorded picture');
   const bits = Math.min(...stored.map((p) => p.mantissaBits)), least = Math.max(...stored.map((p) => p.least));

@@ -3,7 +3,7 @@ import { Chart, rangeOf } from '../lib/chart';
 import { h } from '../lib/dom';
 import type { Camera } from './camera';
 import type { Choice } from './choice';
-import type { Viewer } from './viewer';
+import type { ViewerState } from './viewer_state';
 
 /** Pixels under the line inside the picture, one pixel apart, and how far along the line they are. */
 function pixelsUnder({ x0, y0, x1, y1 }: NonNullable<ReturnType<Choice['line']>>, { width, height }: Camera['size']): { x: number; y: number; along: number }[] {
@@ -20,7 +20,7 @@ export class LineBox {
   readonly element = h('figure', { class: 'line-box', hidden: true }, this.caption, this.chart.element);
   private shown = '';
 
-  show(viewer: Viewer, a: number, b: number): void {
+  show(viewer: ViewerState, a: number, b: number): void {
     const line = viewer.choice.line();
     this.element.hidden = !line || !viewer.isFloat;
     const key = `${viewer.choice.state.get('line')} ${a} ${b} ${viewer.pictures.all.size}`;

@@ -3,7 +3,7 @@ import { Chart } from '../lib/chart';
 import { h } from '../lib/dom';
 import { clamp, numberText } from '../lib/numbers';
 import type { LoadedMap } from './maps';
-import type { Viewer } from './viewer';
+import type { ViewerState } from './viewer_state';
 
 const kBins = 100;
 
@@ -62,7 +62,7 @@ export class MapHistogram {
   private readonly known = new Map<string, Pooled>();
 
   /** Nothing, without a map. */
-  show(viewer: Viewer, a: number, b: number): void {
+  show(viewer: ViewerState, a: number, b: number): void {
     const map = viewer.mapOf(a, b);
     this.element.hidden = !map;
     const top = map ? viewer.white(a, b) : 0, key = map ? `${map.script} ${top}` : '';

@@ -1,5 +1,4 @@
-// What a stage shows. gl_painter.ts paints it from float pictures, cpu_painter.ts does without WebGL 2, and
-// png_painter.ts paints 8-bit pictures.
+// What a stage shows. float_painter.ts paints it from float pictures, png_painter.ts from 8-bit pictures.
 
 import type { FloatPicture } from './half_picture';
 
@@ -28,4 +27,24 @@ export interface Look {
 export interface Painter {
   /** In device pixels. */
   paint(width: number, height: number, panes: readonly Pane[], look: Look): void;
+}
+
+/** Draws each pane over the background, and nothing beyond its border. */
+export function drawPanes(canvas: HTMLCanvasElement, width: number, height: number, panes: readonly Pane[],
+                          draw: (context: CanvasRenderingContext2D, pane: Pane) => void): void {
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  canvas.width = width;
+  canvas.height = height;
+  context.fillStyle = '#212124';
+  context.fillRect(0, 0, width, height);
+  for (const pane of panes) {
+    const { x, y, width: across, height: down } = pane.at;
+    context.save();
+    context.beginPath();
+    context.rect(x, y, across, down);
+    context.clip();
+    draw(context, pane);
+    context.restore();
+  }
 }

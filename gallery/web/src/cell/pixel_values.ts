@@ -2,7 +2,7 @@
 import { h } from '../lib/dom';
 import { shortText } from '../lib/numbers';
 import { valueOfMap } from './maps';
-import type { Viewer } from './viewer';
+import type { ViewerState } from './viewer_state';
 
 export class PixelValues {
   private readonly rows = h('tbody');
@@ -12,7 +12,7 @@ export class PixelValues {
     h('thead', {}, h('tr', {}, ...['', 'red', 'green', 'blue'].map((c) => h('th', { scope: 'col' }, c || h('span', { class: 'unseen' }, 'picture'))))),
     this.rows);
 
-  show(viewer: Viewer, a: number, b: number): void {
+  show(viewer: ViewerState, a: number, b: number): void {
     const cursor = viewer.cursorNow(a, b);
     if (!cursor || !viewer.isFloat) {
       this.where.textContent = viewer.isFloat ? 'Point at a pixel to read its values' : 'Values need float pictures';

@@ -1,7 +1,7 @@
 // Without float pictures: the 8-bit pictures, at their only exposure.
 import { pictureAt } from '../lib/single_file';
 import type { CellPage, ShownPicture } from '../records';
-import type { Painter, Pane, Viewport } from './painter';
+import { drawPanes, type Painter, type Pane, type Viewport } from './painter';
 
 export class PngPainter implements Painter {
   private readonly images = new Map<string, HTMLImageElement>();
@@ -10,25 +10,11 @@ export class PngPainter implements Painter {
               private readonly repaint: () => void, private readonly isWaiting: () => boolean) {}
 
   paint(width: number, height: number, panes: readonly Pane[]): void {
-    this.canvas.width = width;
-    this.canvas.height = height;
-    const context = this.canvas.getContext('2d');
-    if (!context) return;
-    context.fillStyle = '#212124';
-    context.fillRect(0, 0, width, height);
-    for (const { at, view, content } of panes) {
-      context.save();
-      context.beginPath();
-      context.rect(at.x, at.y, at.width, at.height);
-      context.clip();
+    drawPanes(this.canvas, width, height, panes, (context, { at, view, content }) => {
       context.imageSmoothingEnabled = view.zoom < 1;
-      if (content.kind === 'picture') {
-        this.draw(context, this.data.engines[content.engine]?.picture, at, view);
-      } else if (content.kind === 'difference') {
-        this.drawDifference(context, content.a, content.b, at, view);
-      }
-      context.restore();
-    }
+      if (content.kind === 'picture') this.draw(context, this.data.engines[content.engine]?.picture, at, view);
+      else if (content.kind === 'difference') this.drawDifference(context, content.a, content.b, at, view);
+    });
   }
 
   private drawDifference(context: CanvasRenderingContext2D, a: number, b: number,

@@ -3,30 +3,28 @@
 import { announce, button, h, select, svg } from '../lib/dom';
 import { figureButton } from '../lib/figure';
 import { enlargement } from '../lib/figure_svg';
-import { clamp, numberText, toNumber } from '../lib/numbers';
+import { clamp, numberText } from '../lib/numbers';
 import type { CellPage } from '../records';
 import { Camera } from './camera';
-import { Choice, kMeasures, kModes, kMostGain, kStops, type ViewerState } from './choice';
-import { CpuPainter } from './cpu_painter';
+import { Choice, kMeasures, kModes, kMostGain, kStops, type LinkState } from './choice';
 import { figureOf } from './figure';
 import { Flipper } from './flipper';
-import { FloatPictures, type Worst } from './float_pictures';
-import { GlPainter } from './gl_painter';
+import { FloatPainter } from './float_painter';
+import { FloatPictures } from './float_pictures';
 import { legendOf } from './legend';
 import { Histogram } from './histogram';
 import { LineBox } from './line_box';
 import { MapHistogram } from './map_histogram';
-import { DifferenceMaps, type LoadedMap } from './maps';
+import { DifferenceMaps } from './maps';
 import { overlayOf } from './overlay';
-import type { Content, Look, Painter, Pane } from './painter';
+import type { Content, Painter, Pane } from './painter';
 import { PixelValues } from './pixel_values';
 import { PngPainter } from './png_painter';
 import { RegionOutline } from './region';
-import { listenToKeys, listenToPointer } from './viewer_input';
+import { listenToKeys, listenToPointer, type Controls } from './viewer_input';
+import { ViewerState } from './viewer_state';
 
-export const kDecades = 6;  // of false colour
-
-export class Viewer {
+export class Viewer implements Controls {
   readonly element: HTMLElement;
   private readonly canvas = h('canvas', { 'aria-hidden': 'true' });
   private readonly overlay = svg('svg', { class: 'overlay', 'aria-hidden': 'true' });
@@ -49,21 +47,19 @@ export class Viewer {
   private readonly region = h('input', { type: 'checkbox', id: 'region' });
   private readonly lineButton: HTMLButtonElement;
 
-  private readonly maps = new DifferenceMaps(() => this.schedule(), (words) => this.tell(words));
   private painter: Painter;
-  /** Float pictures are painted. */
-  isFloat = false;
   private isWaiting: boolean;  // for float pictures
-  readonly choice: Choice;
-  readonly camera: Camera;
-  readonly flipper = new Flipper(this);
-  readonly pictures: FloatPictures;
-  cursor: { x: number; y: number } | undefined;
-  drawing = false;  // a line
+  readonly state: ViewerState;
+  readonly flipper: Flipper;
+  private readonly choice: Choice;
+  private readonly camera: Camera;
+  private readonly pictures: FloatPictures;
+  isDrawing = false;
   private pending = false;
 
-  constructor(readonly data: CellPage, private readonly state: ViewerState) {
-    this.choice = new Choice(data, state);
+  constructor(private readonly data: CellPage, private readonly link: LinkState) {
+    this.choice = new Choice(data, link);
+    this.flipper = new Flipper(this.choice, (changes) => this.change(changes));
     this.pictures = new FloatPictures(data, () => { this.useFloats(); this.schedule(); },
       (engine, why) => this.lacks(engine, why));
     this.isWaiting = Boolean(data.engines[0]?.floatScript);
@@ -89,6 +85,7 @@ export class Viewer {
       'aria-label': 'The two pictures. Arrow keys move the cursor, with Shift the picture; plus and minus zoom, 0 fits.',
     }, this.canvas, this.overlay, this.tags);
     this.camera = new Camera(this.stage, this.choice, (changes) => this.change(changes));
+    this.state = new ViewerState(this.choice, this.camera, this.pictures, new DifferenceMaps(() => this.schedule(), (words) => this.tell(words)));
     const first = data.engines.find((e) => e.picture)?.picture;
     if (first) this.camera.size = first;
     this.element = h('section', { class: 'viewer', 'aria-labelledby': 'viewer' },
@@ -100,7 +97,7 @@ export class Viewer {
               { 'aria-label': 'Exchange the two', title: 'Exchange the two (x)', 'aria-keyshortcuts': 'x' }),
             this.pick.b.element,
             ...(this.choice.oldAgainstNew().length > 0 ? [button('Old against new', () => this.showOldAgainstNew(),
-              { title: 'The earlier run’s picture beside this one’s; again for the next engine (b)', 'aria-keyshortcuts': 'b' })] : []), this.modes, this.flipper.button, figureButton('what the viewer shows', () => figureOf(this))),
+              { title: 'The earlier run’s picture beside this one’s; again for the next engine (b)', 'aria-keyshortcuts': 'b' })] : []), this.modes, this.flipper.button, figureButton('what the viewer shows', () => figureOf(this.state, this.painted()))),
           this.stage, this.divider, this.legend, this.message),
         h('div', { class: 'side-panel' },
           h('div', { class: 'controls' },
@@ -127,7 +124,7 @@ export class Viewer {
     this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
     listenToPointer(this);
     listenToKeys(this);
-    state.onChange(() => { this.cursor = undefined; this.refresh(); });
+    link.onChange(() => { this.state.cursor = undefined; this.refresh(); });
     new ResizeObserver(() => this.schedule()).observe(this.stage);
     this.refresh();
   }
@@ -168,15 +165,8 @@ export class Viewer {
     announce(`${this.data.engines.find((e) => e.name === next.b)!.title}, before and now`);
   }
 
-  /** The map that is asked for, if these two have it and it is loaded. */
-  mapOf(a: number, b: number): LoadedMap | undefined {
-    const asked = this.choice.mode() === 'diff' && this.isFloat ? this.choice.mapAsked() : undefined;
-    const map = asked && this.choice.comparison(a, b)?.maps.find((m) => m.id === asked.value);
-    return map && this.maps.of(map);
-  }
-
-  change(changes: Parameters<ViewerState['set']>[0]): void {
-    this.state.set(changes);
+  change(changes: Parameters<LinkState['set']>[0]): void {
+    this.link.set(changes);
     this.refresh();
   }
 
@@ -189,8 +179,8 @@ export class Viewer {
     for (const control of this.modes.querySelectorAll('button'))
       control.setAttribute('aria-pressed', String(control.dataset['mode'] === mode));
     this.divider.hidden = mode !== 'slide';
-    this.divider.value = this.state.get('split');
-    this.colour.checked = this.state.get('colour') === 'false';
+    this.divider.value = this.link.get('split');
+    this.colour.checked = this.link.get('colour') === 'false';
     this.region.checked = this.choice.showsRegion();
     const base = this.choice.baseStops();
     this.exposure.min = String(mode === 'diff' ? -kMostGain : base + kStops.from);
@@ -200,7 +190,7 @@ export class Viewer {
     const stops = numberText(Math.round(100 * chosen) / 100, 5);
     this.exposureName.textContent = mode === 'diff' ? `Gain of the difference ${stops} stops` : `Exposure ${stops} stops`;
     // A finger scrolls the page, unless the picture is enlarged or a line is drawn.
-    this.stage.style.touchAction = this.camera.isWhole() && !this.drawing ? 'pan-y' : 'none';
+    this.stage.style.touchAction = this.camera.isWhole() && !this.isDrawing ? 'pan-y' : 'none';
     for (const which of [a, b, 0]) void this.pictures.need(which);
     this.schedule();
   }
@@ -208,31 +198,13 @@ export class Viewer {
   private useFloats(): void {
     const ours = this.pictures.all.get(0);
     if (!ours) return;
-    if (!this.isFloat) {
-      const { canvas, painter } = this.floatPainter();
-      this.painter = painter;
-      this.canvas.replaceWith(canvas);
-      Object.assign(this, { canvas });
-      this.isFloat = true;
+    if (!this.state.isFloat) {
+      this.painter = new FloatPainter(this.canvas, this.pictures.all);
+      this.state.isFloat = true;
       this.camera.size = ours;
       this.camera.home = this.pictures.highlight();
     }
     this.stage.dataset['ready'] = String(this.pictures.all.size);
-  }
-
-  private floatPainter(): { canvas: HTMLCanvasElement; painter: Painter } {
-    const canvas = h('canvas', { 'aria-hidden': 'true' });
-    const gl = canvas.getContext('webgl2', { antialias: false, depth: false, preserveDrawingBuffer: true });
-    if (gl) {
-      try {
-        return { canvas, painter: new GlPainter(canvas, gl, this.pictures.all) };
-      } catch {
-        // The message below says so.
-      }
-    }
-    this.tell('Painted by the processor, because this browser has no WebGL 2.');
-    const plain = h('canvas', { 'aria-hidden': 'true' });
-    return { canvas: plain, painter: new CpuPainter(plain, this.pictures.all) };
   }
 
   private tell(words: string): void { this.message.textContent = words; }
@@ -242,37 +214,17 @@ export class Viewer {
       if (engine === 0) this.isWaiting = false;
       this.tell(why);
       this.schedule();
-    } else if (engine === 0 || this.isFloat) {
+    } else if (engine === 0 || this.state.isFloat) {
       this.tell('This gallery has no float pictures here: exposure, false colour and values need them.');
     }
   }
 
-  /** As recorded, from all bits; for two that were not compared, from this page's pictures. */
-  worstPixel(a: number, b: number): Worst | undefined {
-    const map = this.mapOf(a, b);
-    if (map) return map.worst;
-    if (this.choice.mode() === 'diff' && this.choice.measure() === 'relative') return this.pictures.worst(a, b, 'relative');
-    const found = this.pictures.worst(a, b, 'absolute'), record = this.choice.comparison(a, b);
-    const x = toNumber(record?.worstX), y = toNumber(record?.worstY);
-    return found && Number.isInteger(x) && Number.isInteger(y) ? { ...found, x: clamp(x, 0, this.camera.size.width - 1), y: clamp(y, 0, this.camera.size.height - 1) } : found;
-  }
-
   goToWorst(): void {
-    const worst = this.worstPixel(this.choice.engine('a'), this.choice.engine('b'));
+    const worst = this.state.worstPixel(this.choice.engine('a'), this.choice.engine('b'));
     if (!worst) return;
     this.setCursor(worst.x, worst.y, true);
     if (!this.camera.isWhole()) this.camera.moveTo(worst.x + 0.5, worst.y + 0.5, this.camera.view().zoom / devicePixelRatio);
     announce(`Largest difference at pixel ${worst.x}, ${worst.y}: ${numberText(worst.value)}`);
-  }
-
-  /** The difference that is white. */
-  white(a: number, b: number): number {
-    const map = this.mapOf(a, b);
-    // A scale of its own: a colour means the same on every page, and differences too small to notice stay dark.
-    if (map) return map.top / 2 ** this.choice.gain();
-    const measure = this.choice.measure(), whiteAt = toNumber(this.choice.comparison(a, b)?.whiteAt);
-    const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.pictures.largestOf(a, b, measure) : 1;
-    return base / 2 ** this.choice.gain();
   }
 
   private schedule(): void {
@@ -289,26 +241,24 @@ export class Viewer {
     const picture = (engine: number): Content => ({ kind: 'picture', engine });
     const list: Pane[] = [];
     if (mode === 'slide') {
-      const left = Math.round(all.width * clamp(this.state.number('split'), 0, 100) / 100);
+      const left = Math.round(all.width * clamp(this.link.number('split'), 0, 100) / 100);
       list.push({ at: { ...all, width: left }, view, content: picture(a) },
         { at: { ...all, x: left, width: all.width - left }, view: { ...view, x: view.x + left / view.zoom }, content: picture(b) });
     } else if (mode === 'side') {
       list.push({ at: panes[0]!, view, content: picture(a) }, { at: panes[1]!, view, content: picture(b) });
     } else if (mode === 'flip') {
-      list.push({ at: all, view, content: picture(this.isFlipped() ? b : a) });
+      list.push({ at: all, view, content: picture(this.state.isFlipped() ? b : a) });
     } else {
-      const map = this.mapOf(a, b), white = this.white(a, b);
+      const map = this.state.mapOf(a, b), white = this.state.white(a, b);
       list.push({ at: all, view, content: map ? { kind: 'map', picture: map.picture, white } : { kind: 'difference', a, b, measure: this.choice.measure(), white } });
     }
     return { list, width: mode === 'side' ? panes[1]!.x + panes[1]!.width : all.width, height: all.height };
   }
 
-  private isFlipped(): boolean { return this.choice.mode() === 'flip' && this.state.get('shown') === 'b'; }
-
   /** What the stage shows, painted anew as large as a figure is. */
   painted(): { picture: HTMLCanvasElement; overlay: Element[]; overlayWidth: number } {
     const times = enlargement(this.panes(1).width), { list, width, height } = this.panes(times);
-    this.painter.paint(width, height, list, this.look(this.choice.engine('a'), this.choice.engine('b')));
+    this.painter.paint(width, height, list, this.state.look(this.choice.engine('a'), this.choice.engine('b')));
     const picture = h('canvas', { width, height });
     picture.getContext('2d')?.drawImage(this.canvas, 0, 0);
     this.paint();
@@ -318,24 +268,16 @@ export class Viewer {
   private paint(): void {
     const panes = this.camera.rectangles(), view = this.camera.view(), mode = this.choice.mode();
     const a = this.choice.engine('a'), b = this.choice.engine('b'), { list, width, height } = this.panes(1);
-    this.painter.paint(width, height, list, this.look(a, b));
-    this.showTags(mode, a, b, this.isFlipped());
-    this.legend.replaceChildren(...legendOf(this, a, b));
-    this.values.show(this, a, b);
+    this.painter.paint(width, height, list, this.state.look(a, b));
+    this.showTags(mode, a, b, this.state.isFlipped());
+    this.legend.replaceChildren(...legendOf(this.state, a, b));
+    this.values.show(this.state, a, b);
     const region = this.choice.showsRegion() ? this.choice.comparison(a, b)?.region : undefined;
-    this.overlay.replaceChildren(...overlayOf(this.choice, panes, view, this.cursorNow(a, b),
+    this.overlay.replaceChildren(...overlayOf(this.choice, panes, view, this.state.cursorNow(a, b),
       (transform) => (region ? this.outline.drawn(region, transform) : [])));
-    this.lineBox.show(this, a, b);
-    this.histogram.show(this, a, b);
-    this.mapHistogram.show(this, a, b);
-  }
-
-  look(a: number, b: number): Look {
-    const isDifference = this.choice.mode() === 'diff';
-    return {
-      stops: this.choice.stops(), falseColour: this.isFloat && this.state.get('colour') === 'false', decades: kDecades,
-      top: !this.isFloat ? 1 : isDifference ? this.white(a, b) : this.pictures.largestOf(0, 0, 'value') * 2 ** (this.choice.baseStops() - this.choice.stops()),
-    };
+    this.lineBox.show(this.state, a, b);
+    this.histogram.show(this.state, a, b);
+    this.mapHistogram.show(this.state, a, b);
   }
 
   private showTags(mode: string, a: number, b: number, isFlipped: boolean): void {
@@ -346,33 +288,20 @@ export class Viewer {
   }
 
   startLine(): void {
-    this.drawing = !this.drawing;
-    if (this.drawing) announce('Draw a line across the picture with the pointer.');
-    this.lineButton.setAttribute('aria-pressed', String(this.drawing));
-    this.stage.classList.toggle('drawing', this.drawing);
+    this.isDrawing = !this.isDrawing;
+    if (this.isDrawing) announce('Draw a line across the picture with the pointer.');
+    this.lineButton.setAttribute('aria-pressed', String(this.isDrawing));
+    this.stage.classList.toggle('drawing', this.isDrawing);
   }
 
   private lineThrough(isRow: boolean): void {
-    const { x, y } = this.cursorOrMiddle();
+    const { x, y } = this.state.cursorOrMiddle();
     this.change({ line: isRow ? `0,${y},${this.camera.size.width - 1},${y}` : `${x},0,${x},${this.camera.size.height - 1}` });
   }
 
-  /** Under the pointer; else from the link; else where the two differ most. */
-  cursorNow(a: number, b: number): { x: number; y: number } | undefined {
-    const [x = NaN, y = NaN] = this.state.get('at').split(',').map(Number);
-    const linked = Number.isInteger(x) && Number.isInteger(y) && x >= 0 && y >= 0 && x < this.camera.size.width && y < this.camera.size.height;
-    return this.cursor ?? (linked ? { x, y } : this.isFloat ? this.worstPixel(a, b) : undefined);
-  }
-
-  cursorOrMiddle(): { x: number; y: number } {
-    const { width, height } = this.camera.size;
-    return this.cursorNow(this.choice.engine('a'), this.choice.engine('b')) ?? { x: Math.floor(width / 2), y: Math.floor(height / 2) };
-  }
-
-  /** `keep`: the link gets it too. */
   setCursor(x: number, y: number, keep = false): void {
-    this.cursor = { x: clamp(Math.floor(x), 0, this.camera.size.width - 1), y: clamp(Math.floor(y), 0, this.camera.size.height - 1) };
-    if (keep) this.state.set({ at: `${this.cursor.x},${this.cursor.y}` });
+    const cursor = this.state.cursor = this.state.inside(x, y);
+    if (keep) this.link.set({ at: `${cursor.x},${cursor.y}` });
     this.schedule();
   }
 }

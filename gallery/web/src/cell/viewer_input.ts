@@ -1,13 +1,33 @@
 // Pointer and keys of a cell's viewer.
 import { announce, isTyping } from '../lib/dom';
 import { clamp, numberText } from '../lib/numbers';
-import { kHold } from './flipper';
-import type { Viewer } from './viewer';
+import { kHold, type Flipper } from './flipper';
+import type { LinkState } from './choice';
+import type { ViewerState } from './viewer_state';
+
+/** What pointer and keys do. */
+export interface Controls {
+  readonly stage: HTMLElement;
+  readonly state: ViewerState;
+  readonly flipper: Flipper;
+  /** A line. */
+  readonly isDrawing: boolean;
+  change(changes: Parameters<LinkState['set']>[0]): void;
+  setMode(mode: string): void;
+  /** `keep`: the link gets it too. */
+  setCursor(x: number, y: number, keep?: boolean): void;
+  startLine(): void;
+  fill(): void;
+  nextPicture(by: 1 | -1): void;
+  exchange(): void;
+  showOldAgainstNew(): void;
+  goToWorst(): void;
+}
 
 const kStill = 4;  // pixels of the page that a click may move
 
-export function listenToPointer(viewer: Viewer): void {
-  const { stage, camera, choice } = viewer;
+export function listenToPointer(viewer: Controls): void {
+  const { stage, state } = viewer, { camera, choice } = state;
   let held: { x: number; y: number; kind: 'pan' | 'line' | 'split' } | undefined;
   let still: { x: number; y: number; timer: number } | undefined;  // a press in flip mode that has not moved
   const fingers = new Map<number, PointerEvent>();
@@ -36,7 +56,7 @@ export function listenToPointer(viewer: Viewer): void {
       return stage.setPointerCapture(event.pointerId);
     }
     const point = camera.pointAt(event);
-    held = { ...point, kind: viewer.drawing ? 'line' : isAtDivider(event) ? 'split' : 'pan' };
+    held = { ...point, kind: viewer.isDrawing ? 'line' : isAtDivider(event) ? 'split' : 'pan' };
     stage.setPointerCapture(event.pointerId);
     if (choice.mode() === 'flip' && held.kind === 'pan')
       still = { x: event.clientX, y: event.clientY, timer: window.setTimeout(() => { still = undefined; viewer.flipper.peek(true); }, kHold) };
@@ -64,7 +84,7 @@ export function listenToPointer(viewer: Viewer): void {
     if (letGo() && event.type === 'pointerup') viewer.flipper.flip();
     viewer.flipper.peek(false);
     if (held?.kind === 'line') viewer.startLine();
-    else if (held?.kind === 'pan' && viewer.cursor) viewer.setCursor(viewer.cursor.x, viewer.cursor.y, true);
+    else if (held?.kind === 'pan' && state.cursor) viewer.setCursor(state.cursor.x, state.cursor.y, true);
     held = undefined;
   };
   stage.addEventListener('pointerup', release);
@@ -78,14 +98,14 @@ export function listenToPointer(viewer: Viewer): void {
   stage.addEventListener('dblclick', (event) => camera.zoomBy(2, camera.pointAt(event)));
 }
 
-export function listenToKeys(viewer: Viewer): void {
+export function listenToKeys(viewer: Controls): void {
   viewer.stage.addEventListener('keydown', (event) => moveByKey(viewer, event));
   document.addEventListener('keydown', (event) => actByKey(viewer, event));
 }
 
 /** Arrow keys on the stage. */
-function moveByKey(viewer: Viewer, event: KeyboardEvent): void {
-  const { camera, choice } = viewer;
+function moveByKey(viewer: Controls, event: KeyboardEvent): void {
+  const { state } = viewer, { camera, choice } = state;
   const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
   if (!step) return;
   event.preventDefault();
@@ -94,15 +114,15 @@ function moveByKey(viewer: Viewer, event: KeyboardEvent): void {
     const stride = camera.rectangles()[0]!.width / camera.view().zoom / 8;
     return camera.moveBy(dx * stride, dy * stride);
   }
-  const { x, y } = viewer.cursorOrMiddle();
+  const { x, y } = state.cursorOrMiddle();
   viewer.setCursor(x + dx, y + dy, true);
-  const ours = viewer.pictures.valueAt(choice.engine('a'), viewer.cursor!.x, viewer.cursor!.y);
-  if (ours) announce(`Pixel ${viewer.cursor!.x}, ${viewer.cursor!.y}: ${ours.map((v) => numberText(v)).join(', ')}`);
+  const ours = state.pictures.valueAt(choice.engine('a'), state.cursor!.x, state.cursor!.y);
+  if (ours) announce(`Pixel ${state.cursor!.x}, ${state.cursor!.y}: ${ours.map((v) => numberText(v)).join(', ')}`);
 }
 
 /** Letters and digits anywhere on the page. */
-function actByKey(viewer: Viewer, event: KeyboardEvent): void {
-  const { camera, choice } = viewer;
+function actByKey(viewer: Controls, event: KeyboardEvent): void {
+  const { state } = viewer, { camera, choice } = state;
   if (isTyping(event)) return;
   const cell = event.key === 'j' ? 'next' : event.key === 'k' ? 'prev' : undefined;
   if (cell) return [...document.querySelectorAll<HTMLAnchorElement>(`nav.axes a[rel=${cell}]`)].at(-1)?.click();
@@ -126,7 +146,7 @@ function actByKey(viewer: Viewer, event: KeyboardEvent): void {
     ',': () => viewer.nextPicture(-1), '.': () => viewer.nextPicture(1),
     x: () => viewer.exchange(), b: () => viewer.showOldAgainstNew(),
     e: () => brighten(0.5), E: () => brighten(-0.5),
-    Escape: () => { viewer.flipper.stop(); if (viewer.drawing) viewer.startLine(); },
+    Escape: () => { viewer.flipper.stop(); if (viewer.isDrawing) viewer.startLine(); },
     c: () => viewer.change({ colour: choice.state.get('colour') === 'false' ? '' : 'false' }),
     '+': () => camera.zoomBy(2), '=': () => camera.zoomBy(2), '-': () => camera.zoomBy(0.5), '0': () => camera.fit(), h: () => camera.goHome(),
     p: () => viewer.startLine(), w: () => viewer.goToWorst(),

@@ -1,5 +1,5 @@
 // Paints the sphere with WebGL 2: exactly the text that `lobelia export` writes, in float32.
-import { cameraOf, kDistance, type SpherePainter, type Surface, type Vector } from './sphere';
+import { cameraOf, kDistance, type Surface, type Vector } from './sphere';
 
 const kMostPrograms = 40;
 const kHead = '#version 300 es\nprecision highp float;\nprecision highp int;\n';
@@ -67,7 +67,7 @@ function namesIn(shader: string): { name: string; lobe: string } {
   return { name, lobe };
 }
 
-export class GlSphere implements SpherePainter {
+export class GlSphere {
   private readonly gl: WebGL2RenderingContext;
   private readonly programs = new Map<string, WebGLProgram>();
   private size = 0;
@@ -82,6 +82,7 @@ export class GlSphere implements SpherePainter {
     gl.bindRenderbuffer(gl.RENDERBUFFER, gl.createRenderbuffer());
   }
 
+  /** Red is the radiance of the first surface, green the second's, alpha 1 on the sphere. The bottom row is first. */
   paint(size: number, toLight: Vector, surfaces: readonly Surface[]): Float32Array {
     const gl = this.gl, program = this.programOf(surfaces), { scale, edge } = cameraOf(size), [first, second] = surfaces;
     const place = (name: string): WebGLUniformLocation | null => gl.getUniformLocation(program, name);

@@ -1,7 +1,6 @@
 // What paints the explorer's sphere: a unit sphere before a camera of 28 degrees, 5 units away, under a directional
 // light of irradiance 1, as in reference_scenes/scenes. Vectors are the camera's: x right, y up, z towards the eye.
 import type { ModelTable } from '../records';
-import type { Curve } from './tables';
 
 export type Vector = readonly [number, number, number];
 
@@ -10,14 +9,7 @@ export interface Surface {
   readonly n: number;
   /** As `lobelia export` writes it; empty in records of older programs. */
   readonly shader: string;
-  /** From the tables, for the processor. */
-  readonly curve: Curve;
   readonly coefficient: number;
-}
-
-export interface SpherePainter {
-  /** Red is the radiance of the first surface, green the second's, alpha 1 on the sphere. The bottom row is first. */
-  paint(size: number, toLight: Vector, surfaces: readonly Surface[]): Float32Array;
 }
 
 export const kDistance = 5;

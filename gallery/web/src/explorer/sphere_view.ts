@@ -5,9 +5,8 @@ import { figureButton, type FigureSource } from '../lib/figure';
 import { fileName } from '../lib/figure_text';
 import { clamp, numberText } from '../lib/numbers';
 import type { HashState } from '../lib/state';
-import { CpuSphere } from './cpu_sphere';
 import { GlSphere } from './gl_sphere';
-import { seenFrom, type SpherePainter, type Surface, vectorAt } from './sphere';
+import { seenFrom, type Surface, vectorAt } from './sphere';
 
 export const kSphereState = { light: '-40,30', camera: '0,0', wipe: '36.5', ev: '0', show: 'wipe', px: '512' };
 type Key = keyof typeof kSphereState;
@@ -43,7 +42,7 @@ export class SphereView {
   private readonly px;
   private turned: Turned = 'light';
   private angles: Record<Turned, number[]> = { light: [0, 0], camera: [0, 0] };
-  private painter: SpherePainter;
+  private painter: GlSphere | undefined;
   private surfaces: readonly Surface[] = [];
   private pixels: Float32Array | undefined;
   private size = 0;
@@ -59,11 +58,7 @@ export class SphereView {
     this.px = select('Pixels', kSizes.map((v) => ({ value: v, label: `${v} × ${v}` })), '512', (px) => change({ px }), 'sphere-px');
     this.wipe.addEventListener('input', () => change({ wipe: this.wipe.value }));
     this.ev.addEventListener('input', () => change({ ev: this.ev.value }));
-    try {
-      this.painter = new GlSphere();
-    } catch (error) {
-      this.painter = this.withoutGl(error);
-    }
+    this.attempt(() => { this.painter = new GlSphere(); });
     this.listen();
     this.element = h('figure', { class: 'chart-figure sphere' }, h('h2', {}, 'The sphere'),
       h('div', { class: 'controls' }, this.drag.element, this.show.element, this.px.element,
@@ -92,17 +87,20 @@ export class SphereView {
     this.schedule();
   }
 
-  /** The last picture of a surface as a grey PFM, whose rows begin at the bottom as ours do. */
-  pfm(index: number): Blob {
+  /** The last picture of a surface as a grey PFM, whose rows begin at the bottom as ours do; undefined without one. */
+  pfm(index: number): Blob | undefined {
     this.paint();
-    const { size, pixels } = this, head = new TextEncoder().encode(`Pf\n${size} ${size}\n-1.0\n`);
+    const { size, pixels } = this;
+    if (!pixels) return undefined;
+    const head = new TextEncoder().encode(`Pf\n${size} ${size}\n-1.0\n`);
     const values = new DataView(new ArrayBuffer(4 * size * size));
-    for (let i = 0; i < size * size; ++i) values.setFloat32(4 * i, pixels![4 * i + index]!, true);
+    for (let i = 0; i < size * size; ++i) values.setFloat32(4 * i, pixels[4 * i + index]!, true);
     return new Blob([head, values]);
   }
 
   private figure(): FigureSource {
     this.paint();
+    if (!this.pixels) throw new Error('There is no picture.');
     const { size, pixels, canvas } = this, names = this.about(), isDifference = this.isDifference(), both = this.surfaces.length > 1;
     const top = Math.max(...this.surfaces.map((s) => s.coefficient)) / 2 ** this.stops(), kTicks = [0, 0.25, 0.5, 0.75, 1];
     const css = (colours: Uint32Array, share: number): string => {
@@ -140,9 +138,14 @@ export class SphereView {
   private split(): number { return this.surfaces.length > 1 ? clamp(this.state.number('wipe'), 0, 100) / 100 : 1; }
   private pixelCount(): number { return Number(kSizes.includes(this.state.get('px')) ? this.state.get('px') : kSphereState.px); }
 
-  private withoutGl(why: unknown): SpherePainter {
-    this.note.textContent = `Painted from the tables, within 0.2 % of the peak, because the shader does not run here: ${why instanceof Error ? why.message : ''}.`;
-    return new CpuSphere();
+  /** Without WebGL 2 there is no sphere. */
+  private attempt(act: () => void): void {
+    try {
+      act();
+    } catch (error) {
+      this.painter = undefined;
+      this.note.textContent = `There is no picture, because the shader does not run here: ${error instanceof Error ? error.message : ''}. Curves and numbers need no shader.`;
+    }
   }
 
   private turn(what: Turned, [right, up]: readonly number[]): void {
@@ -209,14 +212,9 @@ export class SphereView {
   private paint(): void {
     if (!this.surfaces.length) return;
     const light = seenFrom(this.angles.camera, vectorAt(this.angles.light)), size = this.pixelCount();
-    try {
-      this.pixels = this.painter.paint(size, light, this.surfaces);
-    } catch (error) {
-      this.painter = this.withoutGl(error);
-      this.pixels = this.painter.paint(size, light, this.surfaces);
-    }
+    this.attempt(() => { this.pixels = this.painter?.paint(size, light, this.surfaces); });
     this.size = size;
-    this.draw(this.pixels);
+    if (this.pixels && this.painter) this.draw(this.pixels);
   }
 
   private draw(pixels: Float32Array): void {

@@ -6,16 +6,6 @@ export interface Curve { readonly x: number[]; readonly y: number[] }
 
 const kDegree = Math.PI / 180, kFiner = 4;
 
-/** Rows from their second differences, which the page's data has because they are short. */
-function summed(rows: readonly (readonly number[])[]): number[][] {
-  const result: number[][] = [];
-  rows.forEach((row, r) => {
-    const before = result[r - 1], earlier = result[r - 2];
-    result.push(row.map((value, i) => value + (earlier ? 2 * before![i]! - earlier[i]! : before?.[i] ?? 0)));
-  });
-  return result;
-}
-
 /** Four times as many points, by the cubic through the four nearest, for a smooth line. */
 function refined(values: readonly number[]): number[] {
   const last = values.length - 1, result: number[] = [];
@@ -31,14 +21,6 @@ function refined(values: readonly number[]): number[] {
     result.push(sum);
   }
   return result;
-}
-
-export function unpacked(packed: HighlightTables): HighlightTables {
-  return {
-    ...packed,
-    lobes: packed.lobes.map((l) => ({ ...l, curves: summed(l.curves) })),
-    highlights: packed.highlights.map((h) => ({ ...h, seen: summed(h.seen), ...(h.lit && { lit: summed(h.lit) }) })),
-  };
 }
 
 /** Angles from 0 to `reach`, closer together where a highlight is bright. */

@@ -1,9 +1,19 @@
 // A line chart that shows the values under the pointer, or at the arrow keys.
-import type { ChartAxis, ChartBand } from '../records';
 import { h, svg } from './dom';
 import { figureButton, type FigureSource } from './figure';
 import { fileName } from './figure_text';
 import { clamp, numberText, powerText } from './numbers';
+
+interface ChartAxis {
+  /** With its unit. */
+  readonly label: string;
+  readonly from: number;
+  readonly to: number;
+  readonly logarithmic?: boolean;
+}
+
+/** A marked range of the x axis. */
+interface ChartBand { readonly title: string; readonly from: number; readonly to: number }
 
 export interface Series {
   readonly name: string;
@@ -18,8 +28,6 @@ interface ChartContent {
   readonly y: ChartAxis;
   readonly series: readonly Series[];
   readonly bands?: readonly ChartBand[];
-  /** 0 has a place below a logarithmic y axis. */
-  readonly zero?: boolean;
   /** A value with a line of its own, such as 1 of a ratio. */
   readonly level?: number | undefined;
   /** Each point is a bar, from the middle to the next ones. */
@@ -34,7 +42,6 @@ const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
 
 /** Round numbers from `from` to `to`, about `count` of them; decades on a logarithmic axis. */
 function ticks(axis: ChartAxis, count: number): number[] {
-  if (axis.ticks?.length) return [...axis.ticks];
   const result: number[] = [];
   if (axis.logarithmic) {
     const first = Math.ceil(Math.log10(axis.from) - 1e-9), last = Math.floor(Math.log10(axis.to) + 1e-9);
@@ -137,12 +144,9 @@ export class Chart {
   }
 
   private down(value: number): number {
-    const bottom = this.height - kBottom, room = this.hasZero() ? 28 : 0;
-    if (value === 0 && room > 0) return bottom;
-    return kTop + (1 - clamp(shareOf(value, this.content!.y), -100, 100)) * (bottom - room - kTop);
+    const bottom = this.height - kBottom;
+    return kTop + (1 - clamp(shareOf(value, this.content!.y), -100, 100)) * (bottom - kTop);
   }
-
-  private hasZero(): boolean { return Boolean(this.content?.zero && this.content.y.logarithmic && this.visible().some((s) => s.y.includes(0))); }
 
   private visible(): Series[] { return this.content?.series.filter((s) => !this.hidden.has(s.name)) ?? []; }
 
@@ -157,10 +161,10 @@ export class Chart {
       parts.push(svg('rect', { class: `band-${i % 2}`, x: left, y: kTop, width: end - left, height: bottom - kTop }),
         svg('text', { class: 'band-label', x: left + 4, y: kTop - 6 }, band.title));
     });
-    for (const value of [...(this.hasZero() ? [0] : []), ...ticks(y, 6)]) {
+    for (const value of ticks(y, 6)) {
       const at = this.down(value);
       parts.push(svg('line', { class: 'grid-line', x1: kLeft, x2: right, y1: at, y2: at }),
-        svg('text', { class: 'tick-label', x: kLeft - 8, y: at + 4, 'text-anchor': 'end' }, value === 0 ? '0' : tickText(value, y)));
+        svg('text', { class: 'tick-label', x: kLeft - 8, y: at + 4, 'text-anchor': 'end' }, tickText(value, y)));
     }
     for (const value of ticks(x, Math.max(3, Math.floor(this.width / 100)))) {
       const at = this.across(value);
@@ -205,7 +209,7 @@ export class Chart {
     let path = '', pen = false;
     s.x.forEach((value, i) => {
       const height = s.y[i]!;
-      const drawn = Number.isFinite(height) && value >= x.from && value <= x.to && (!y.logarithmic || height > 0 || (height === 0 && this.hasZero()));
+      const drawn = Number.isFinite(height) && value >= x.from && value <= x.to && (!y.logarithmic || height > 0);
       if (drawn) path += `${pen ? 'L' : 'M'}${this.across(value).toFixed(1)} ${this.down(height).toFixed(1)}`;
       pen = drawn;
     });
@@ -233,7 +237,7 @@ export class Chart {
     const i = nearest(xs, value), at = this.across(xs[i]!);
     const there = series.map((s) => ({ name: s.name, style: s.style, y: s.x === xs ? s.y[i]! : between(s, xs[i]!) }));
     const { from, to } = this.content.y;
-    const marks = there.filter((s) => (s.y >= from && s.y <= to) || (s.y === 0 && this.hasZero()))
+    const marks = there.filter((s) => s.y >= from && s.y <= to)
       .map((s) => svg('circle', { class: `marker-${s.style}`, cx: at, cy: this.down(s.y), r: 3.5 }));
     this.rule.replaceChildren(
       svg('line', { class: 'axis', x1: at, x2: at, y1: kTop, y2: this.height - kBottom }), ...marks);
@@ -260,7 +264,6 @@ function between(s: Series, x: number): number {
 }
 
 function tickText(value: number, axis: ChartAxis): string {
-  if (axis.ticks?.length) return numberText(value, 4);
   if (!axis.logarithmic) {
     const size = Math.max(Math.abs(axis.from), Math.abs(axis.to));
     const digits = clamp(Math.ceil(Math.log10(size / (axis.to - axis.from))) + 3, 3, 12);

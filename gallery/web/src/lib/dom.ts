@@ -63,10 +63,3 @@ export function announce(words: string): void {
   }
   place.textContent = words;
 }
-
-/** Puts `element` in place of a drawing that the page has for readers without script. */
-export function replaceDrawing(drawing: Element, element: HTMLElement): void {
-  drawing.classList.add('without-script');
-  element.classList.add('scripted-only');
-  drawing.after(element);
-}

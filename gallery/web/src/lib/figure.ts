@@ -77,7 +77,7 @@ function openPanel(what: string, get: () => FigureSource): void {
     } catch (error) {
       // A browser may let no page read a picture that came from a disk.
       status.textContent = error instanceof DOMException && error.name === 'SecurityError'
-        ? 'The browser lets no page read this picture from a disk. Open the gallery with “lobelia gallery serve”.' : `It cannot be made: ${error instanceof Error ? error.message : String(error)}.`;
+        ? 'The browser lets no page read this picture from a disk. In the gallery’s folder, type: python3 -m http.server --bind 127.0.0.1' : `It cannot be made: ${error instanceof Error ? error.message : String(error)}.`;
     }
   };
   const act = (label: string, run: () => void | Promise<void>, done: string): HTMLElement => button(label, () => void attempt(run, done)());

@@ -1,7 +1,7 @@
 // The page of a cell: a viewer in place of the row of pictures, and an interactive profile.
 import type { CellPage } from '../records';
 import { profileView } from '../cell/profile_view';
-import { viewerState } from '../cell/choice';
+import { linkState } from '../cell/choice';
 import { Viewer } from '../cell/viewer';
 import { pageData } from '../lib/data';
 import { kPlaces } from '../lib/state';
@@ -25,7 +25,7 @@ export function cell(main: HTMLElement): void {
 
 export function showCell(main: HTMLElement, data: CellPage): void {
   takeStateAlong(main);
-  const state = viewerState();
+  const state = linkState();
   const pictures = main.querySelector('section.pictures');
   if (pictures && data.engines.some((e) => e.picture)) {
     const viewer = new Viewer(data, state).element;

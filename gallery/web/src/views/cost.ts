@@ -1,7 +1,6 @@
 // The page on cost: the pointer or a key marks a variant in its table and in all charts of that table.
 import { h, select } from '../lib/dom';
-import { figureButton, type FigureSource } from '../lib/figure';
-import { fileName } from '../lib/figure_text';
+import { drawnChartButton } from '../lib/drawn_chart';
 import { clamp } from '../lib/numbers';
 import { HashState } from '../lib/state';
 
@@ -51,7 +50,7 @@ class CostTable {
   private makeReadable(chart: SVGSVGElement): void {
     const place = h('output', { class: 'readout' });
     this.readouts.push({ chart, place });
-    chart.after(h('div', { class: 'chart-foot' }, place, figureButton(chart.querySelector('title')?.textContent ?? 'the chart', () => figureOf(chart))));
+    chart.after(h('div', { class: 'chart-foot' }, place, drawnChartButton(chart)));
     const points = this.points.filter((p) => chart.contains(p));
     // In the order of the time axis.
     const across = (p: SVGGElement): number => Number(p.dataset['x']);
@@ -113,20 +112,6 @@ class CostTable {
         (key === '' ? 'Point at the chart or the table, or use arrow keys; Enter keeps a variant marked.' : `${key}: no error that can be drawn`);
     }
   }
-}
-
-/** A chart that the program drew, as a figure. */
-function figureOf(chart: SVGSVGElement): FigureSource {
-  const figure = chart.closest('figure'), section = chart.closest('section'), points = [...chart.querySelectorAll<SVGGElement>('g.point[data-x]')];
-  const text = (place: ParentNode | null | undefined, selector: string): string => place?.querySelector(selector)?.textContent ?? '';
-  const [x = '', y = ''] = [...chart.querySelectorAll('.axis-label')].map((label) => label.textContent ?? '');
-  const title = text(section, 'h2') || text(document, 'h1'), caption = text(section, '.finding'), what = figure?.dataset['name'] ?? '';
-  return {
-    name: fileName(document.body.dataset['view'] ?? '', what || title), title,
-    caption: [`${title}: ${y}, over ${x}`, ...(caption ? [caption.replace(/\.$/, '')] : [])].join('. ') + '.',
-    csv: { what: `${points.length} points`, rows: () => [['name', x, y], ...points.map((p) => [p.dataset['key'] ?? '', Number(p.dataset['x']), Number(p.dataset['y'])])] },
-    content: { drawing: chart, legend: [] },
-  };
 }
 
 /** Scrolls the table to a row, never the page. */

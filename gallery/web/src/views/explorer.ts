@@ -1,6 +1,6 @@
 // One highlight, or two over each other: sphere, curve, coefficient, peak, width, energy and cost at any exponent.
 import { kSphereState, SphereView } from '../explorer/sphere_view';
-import { AtExponent, unpacked } from '../explorer/tables';
+import { AtExponent } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
 import { announce, button, h, select } from '../lib/dom';
@@ -26,7 +26,7 @@ function operationsText(lobe: Operations, model: Operations): string {
 
 export function explorer(main: HTMLElement): void {
   const data = pageData<HighlightTables>(), place = main.querySelector('#explorer');
-  if (data && place) new Explorer(unpacked(data), place);
+  if (data && place) new Explorer(data, place);
 }
 
 class Explorer {
@@ -114,7 +114,9 @@ class Explorer {
       navigator.clipboard?.writeText(text.textContent ?? '').then(() => announce('The shader is copied.'), () => { shader.open = true; });
     }, { 'aria-label': `Copy shader ${name}` });
     const save = button('Save float picture', () => {
-      const address = URL.createObjectURL(this.sphere.pfm(suffix ? 1 : 0)), chosen = this.chosen(side);
+      const picture = this.sphere.pfm(suffix ? 1 : 0), chosen = this.chosen(side);
+      if (!picture) return;
+      const address = URL.createObjectURL(picture);
       h('a', { href: address, download: `${chosen?.model.name}-${chosen?.lobe.name}-${chosen?.at.n}.pfm` }).click();
       setTimeout(() => URL.revokeObjectURL(address), 60_000);
     }, { 'aria-label': `Save float picture ${name}` });
@@ -162,7 +164,7 @@ class Explorer {
     for (const panel of this.panels) panel.refresh();
     const shown = this.shown();
     this.sphere.refresh(shown.map((c) => ({
-      model: c.model, n: c.at.n, shader: c.shader, curve: c.at.curve(c.lobe), coefficient: c.at.coefficient(c.highlight, c.norm),
+      model: c.model, n: c.at.n, shader: c.shader, coefficient: c.at.coefficient(c.highlight, c.norm),
     })));
     this.drawCurves(shown);
     this.drawEnergy(shown);

@@ -1,13 +1,10 @@
-// The paper's claims, filtered by verdict and words, and their charts.
-import { Chart } from '../lib/chart';
-import { pageData } from '../lib/data';
-import { h, replaceDrawing, select } from '../lib/dom';
-import { toNumber } from '../lib/numbers';
+// The paper's claims, filtered by verdict and words.
+import { h, select } from '../lib/dom';
+import { addDrawnChartButtons } from '../lib/drawn_chart';
 import { HashState } from '../lib/state';
-import type { PaperFigure, PaperPage } from '../records';
 
 export function paper(main: HTMLElement): void {
-  drawCharts(main, pageData<PaperPage>()?.charts ?? []);
+  addDrawnChartButtons(main);
   const claims = [...main.querySelectorAll<HTMLElement>('.claim')];
   const section = main.querySelector('.claims h2');
   if (!section || claims.length === 0) return;
@@ -46,14 +43,4 @@ export function paper(main: HTMLElement): void {
   });
   state.onChange(refresh);
   refresh();
-}
-
-function drawCharts(main: HTMLElement, charts: readonly PaperFigure[]): void {
-  for (const content of charts) {
-    const drawing = main.querySelector(`[data-chart="${CSS.escape(content.id)}"] > svg`);
-    if (!drawing) continue;
-    const chart = new Chart(content.title, 340, () => ({ caption: content.description.replace(/\.$/, '') }));
-    replaceDrawing(drawing, chart.element);
-    chart.update({ ...content, series: content.series.map((s) => ({ ...s, x: s.x.map(toNumber), y: s.y.map(toNumber) })) });
-  }
 }

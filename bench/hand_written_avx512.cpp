@@ -1,2 +1,0 @@
-#define LOBELIA_BENCH_SET avx512
-#include "bench/hand_written_loop.inc"
