@@ -36,33 +36,33 @@ Reading noisy(double value, double low, double high) {
   return {value, bar, {}, 0};
 }
 
-TEST(ChangeRule, over_one_per_cent_of_the_value_is_a_change) {
+TEST(ChangeRule, CallsOverOnePerCentOfTheValueAChange) {
   EXPECT_EQ(change_of(reading(1), reading(1.009), false), Change::kSame);
   EXPECT_EQ(change_of(reading(1), reading(1.02), false), Change::kWorse);
   EXPECT_EQ(change_of(reading(1.02), reading(1), false), Change::kBetter);
   EXPECT_EQ(change_of(reading(0), reading(1e-300), false), Change::kWorse);
 }
 
-TEST(ChangeRule, under_one_per_cent_of_the_limit_is_none) {
+TEST(ChangeRule, CallsUnderOnePerCentOfTheLimitNone) {
   EXPECT_EQ(change_of(reading(0.001), reading(0.01, 1), false), Change::kSame);
   EXPECT_EQ(change_of(reading(0.001), reading(0.02, 1), false), Change::kWorse);
 }
 
-TEST(ChangeRule, what_the_rounding_of_float32_explains_is_none) {
+TEST(ChangeRule, CallsTheRoundingOfFloat32None) {
   Reading was = reading(1e-8), now = reading(1e-7);
   EXPECT_EQ(change_of(was, now, false), Change::kWorse);
   now.rounding = 0x1p-23;
   EXPECT_EQ(change_of(was, now, false), Change::kSame);
 }
 
-TEST(ChangeRule, overlapping_error_bars_are_none) {
+TEST(ChangeRule, CallsOverlappingErrorBarsNone) {
   EXPECT_EQ(change_of(noisy(1, 0.8, 1.2), noisy(1.3, 1.1, 1.5), false), Change::kSame);
   EXPECT_EQ(change_of(noisy(1, 0.8, 1.05), noisy(1.3, 1.1, 1.5), false), Change::kWorse);
   EXPECT_EQ(change_of(reading(1.4), noisy(1.2, 1.1, 1.5), false), Change::kSame);
   EXPECT_EQ(change_of(noisy(1, kNan, kNan), reading(9), false), Change::kSame);
 }
 
-TEST(ChangeRule, the_sign_of_an_error_and_the_direction_of_a_likeness_count) {
+TEST(ChangeRule, CountsTheSignOfAnErrorAndTheDirectionOfALikeness) {
   EXPECT_EQ(change_of(reading(-1), reading(1), false), Change::kSame);
   EXPECT_EQ(change_of(reading(1), reading(-2), false), Change::kWorse);
   EXPECT_EQ(change_of(reading(40), reading(30), true), Change::kWorse);
@@ -71,7 +71,7 @@ TEST(ChangeRule, the_sign_of_an_error_and_the_direction_of_a_likeness_count) {
   EXPECT_EQ(change_of(reading(0.999), reading(0.9999), true), Change::kBetter);
 }
 
-TEST(ChangeRule, numbers_that_are_not_finite_have_a_direction) {
+TEST(ChangeRule, GivesNumbersThatAreNotFiniteADirection) {
   EXPECT_EQ(change_of(reading(kNan), reading(kNan), false), Change::kSame);
   EXPECT_EQ(change_of(reading(1), reading(kNan), false), Change::kWorse);
   EXPECT_EQ(change_of(reading(kNan), reading(1), false), Change::kBetter);
@@ -80,7 +80,7 @@ TEST(ChangeRule, numbers_that_are_not_finite_have_a_direction) {
   EXPECT_EQ(change_of(reading(INFINITY), reading(-INFINITY), false), Change::kSame);
 }
 
-TEST(MatchCells, by_the_values_on_all_axes_in_any_order) {
+TEST(MatchCells, GoesByTheValuesOnAllAxesInAnyOrder) {
   records::Farm now, earlier;
   now.cells = {{"a-1", "pass", {{"model", "a"}, {"n", "1"}}},
                {"a-2", "pass", {{"model", "a"}, {"n", "2"}}}};
@@ -89,7 +89,7 @@ TEST(MatchCells, by_the_values_on_all_axes_in_any_order) {
   EXPECT_THAT(match_cells(now, earlier), ElementsAre(std::nullopt, std::optional<std::size_t>(0)));
 }
 
-TEST(MatchCells, a_path_by_its_last_part_where_that_is_needed) {
+TEST(MatchCells, GoesByTheLastPartOfAPathWhereThatIsNeeded) {
   records::Farm now, earlier;
   now.cells = {{"x", "pass", {{"light", "../scenes/side.xml"}}}};
   earlier.cells = {{"y", "pass", {{"light", "old/side.xml"}}}};
@@ -100,7 +100,7 @@ TEST(MatchCells, a_path_by_its_last_part_where_that_is_needed) {
   EXPECT_THAT(match_cells(now, earlier), ElementsAre(std::optional<std::size_t>(2)));
 }
 
-TEST(MatchCells, equal_places_by_their_ids) {
+TEST(MatchCells, GoesByTheIdsOfEqualPlaces) {
   records::Farm now, earlier;
   now.cells = {{"p", "pass", {{"n", "1"}}}, {"q", "pass", {{"n", "1"}}}};
   earlier.cells = {{"q", "pass", {{"n", "1"}}}, {"p", "pass", {{"n", "1"}}}};
@@ -145,7 +145,7 @@ class Changes : public testing::Test {
   TemporaryDirectory site_;
 };
 
-TEST_F(Changes, the_same_run_twice_is_as_before) {
+TEST_F(Changes, AreNoneForTheSameRunTwice) {
   EXPECT_THAT(publish().worse, IsEmpty());
   EXPECT_THAT(sentence(), HasSubstr(": 4 cells are as before."));
   EXPECT_THAT(cell(FakeFarm::kPass), HasSubstr("As on "));
@@ -154,7 +154,7 @@ TEST_F(Changes, the_same_run_twice_is_as_before) {
   EXPECT_THAT(site.active_content(), IsEmpty());
 }
 
-TEST_F(Changes, a_pass_that_is_one_no_more_is_worse_and_the_reverse_is_better) {
+TEST_F(Changes, CallALostPassWorseAndTheReverseBetter) {
   // The two differ in which cell differs.
   now_.change<records::Comparison>(FakeFarm::kPass, "lobelia-povray.json", [](auto& record) {
     record.limits[0].limit = 0;
@@ -179,7 +179,7 @@ TEST_F(Changes, a_pass_that_is_one_no_more_is_worse_and_the_reverse_is_better) {
   EXPECT_THAT(cell(FakeFarm::kDiffers), HasSubstr("POV-Ray: differs became pass"));
 }
 
-TEST_F(Changes, a_larger_difference_with_the_same_verdict_is_worse_beyond_its_noise) {
+TEST_F(Changes, CallALargerDifferenceWorseBeyondItsNoise) {
   set_worst(now_, FakeFarm::kPass, 4.03e-4);
   EXPECT_THAT(publish().worse, IsEmpty());
   set_worst(now_, FakeFarm::kPass, 5e-4);
@@ -195,12 +195,12 @@ TEST_F(Changes, a_larger_difference_with_the_same_verdict_is_worse_beyond_its_no
   EXPECT_EQ(publish().worse.size(), 1u);
 }
 
-TEST_F(Changes, a_damaged_picture_of_now_is_worse) {
+TEST_F(Changes, CallADamagedPictureOfNowWorse) {
   write_file(now_.cell_directory(FakeFarm::kPass) / "povray.png", std::string_view("no picture"));
   EXPECT_THAT(publish().worse, ElementsAre(HasSubstr("pass became damaged")));
 }
 
-TEST_F(Changes, cells_appear_and_go_and_the_gone_are_named_with_their_status) {
+TEST_F(Changes, NameCellsThatAreGoneWithTheirStatus) {
   was_.leave_out({FakeFarm::kPass});
   now_.leave_out({FakeFarm::kDiffers});
   EXPECT_THAT(publish().worse, IsEmpty());
@@ -210,7 +210,7 @@ TEST_F(Changes, cells_appear_and_go_and_the_gone_are_named_with_their_status) {
   EXPECT_THAT(cell(FakeFarm::kPass), HasSubstr("does not have this cell"));
 }
 
-TEST_F(Changes, a_cell_that_was_not_rendered_is_new_and_one_that_lost_its_picture_worse) {
+TEST_F(Changes, CallAnUnrenderedCellNewAndALostPictureWorse) {
   was_.farm().cells[0].status = "missing";
   was_.write();
   fs::remove_all(was_.cell_directory(FakeFarm::kPass));
@@ -221,7 +221,7 @@ TEST_F(Changes, a_cell_that_was_not_rendered_is_new_and_one_that_lost_its_pictur
   EXPECT_THAT(sentence(), HasSubstr(": 1 cell is worse, 1 is new, 2 are as before."));
 }
 
-TEST_F(Changes, an_engine_that_is_not_there_any_more_is_named) {
+TEST_F(Changes, NameAnEngineThatIsNotThereAnyMore) {
   now_.change<records::Cell>(FakeFarm::kPass, "cell.json", [](records::Cell& record) {
     record.comparisons.clear();
     record.images.pop_back();
@@ -233,7 +233,7 @@ TEST_F(Changes, an_engine_that_is_not_there_any_more_is_named) {
   EXPECT_THAT(cell(FakeFarm::kPass), HasSubstr("✓ pass before, not compared now"));
 }
 
-TEST_F(Changes, a_damaged_baseline_tells_nothing_and_hides_nothing) {
+TEST_F(Changes, TakeNothingFromADamagedBaseline) {
   write_file(was_.cell_directory(FakeFarm::kPass) / "cell.json", std::string_view("{"));
   write_file(was_.cell_directory(FakeFarm::kDiffers) / "lobelia-povray.json",
              std::string_view("[]"));
@@ -243,7 +243,7 @@ TEST_F(Changes, a_damaged_baseline_tells_nothing_and_hides_nothing) {
   EXPECT_THAT(cell(FakeFarm::kPass), Not(HasSubstr(was_.directory().string())));
 }
 
-TEST_F(Changes, a_link_in_a_baseline_is_not_followed) {
+TEST_F(Changes, FollowNoLinkInABaseline) {
   const TemporaryDirectory elsewhere;
   write_file(elsewhere.path() / "secret", tiny_png());
   const fs::path picture = was_.cell_directory(FakeFarm::kPass) / "povray.png";
@@ -259,7 +259,7 @@ TEST_F(Changes, a_link_in_a_baseline_is_not_followed) {
   EXPECT_FALSE(fs::exists(site_.path() / "cells" / FakeFarm::kPass / "povray.before.png"));
 }
 
-TEST_F(Changes, what_is_no_farm_is_refused_by_name) {
+TEST_F(Changes, RefuseByNameADirectoryThatIsNoFarm) {
   const auto code_of = [&](const fs::path& baseline) {
     try {
       publish({baseline});
@@ -278,7 +278,7 @@ TEST_F(Changes, what_is_no_farm_is_refused_by_name) {
   EXPECT_FALSE(fs::exists(site_.path() / "index.html"));
 }
 
-TEST_F(Changes, markup_in_a_baseline_comes_out_as_text) {
+TEST_F(Changes, ShowMarkupOfABaselineAsText) {
   const std::string hostile = "<script>alert(1)</script>";
   was_.farm().axes[0].values[0].label = hostile;
   was_.write();
@@ -293,7 +293,7 @@ TEST_F(Changes, markup_in_a_baseline_comes_out_as_text) {
   EXPECT_THAT(cell(FakeFarm::kDiffers), HasSubstr(hostile));
 }
 
-TEST_F(Changes, the_timeline_has_every_run_with_its_date) {
+TEST_F(Changes, HaveATimelineOfEveryRunWithItsDate) {
   const FakeFarm oldest;
   set_worst(oldest, FakeFarm::kPass, 2e-4);
   const auto set_date = [](const FakeFarm& farm, int days) {
@@ -321,7 +321,7 @@ TEST_F(Changes, the_timeline_has_every_run_with_its_date) {
   EXPECT_THAT(sentence(), HasSubstr("Since " + words[1].substr(0, 10) + " ("));
 }
 
-TEST_F(Changes, publishing_without_a_baseline_removes_what_it_had_added) {
+TEST_F(Changes, AreRemovedByPublishingWithoutABaseline) {
   Image other(2, 2);
   other.values()[0] = 1;
   write_exr(was_.cell_directory(FakeFarm::kPass) / "povray.exr", other, {});

@@ -104,7 +104,7 @@ class GalleryEvidence : public ::testing::Test {
   std::size_t passes_ = 0;  ///< places on the cell's page that say so of the cell
 };
 
-TEST_F(GalleryEvidence, of_a_farm_that_nobody_touched_is_a_pass_without_a_doubt) {
+TEST_F(GalleryEvidence, IsAPassForAFarmThatNobodyTouched) {
   EXPECT_EQ(state(), "pass");
   EXPECT_THAT(doubts_, IsEmpty());
   EXPECT_THAT(cell_text_, HasSubstr("✓ pass"));
@@ -112,7 +112,7 @@ TEST_F(GalleryEvidence, of_a_farm_that_nobody_touched_is_a_pass_without_a_doubt)
   EXPECT_EQ(state(), "pass") << "its own pages are not taken for evidence";
 }
 
-TEST_F(GalleryEvidence, that_is_gone_makes_a_cell_missing_whichever_file_it_is) {
+TEST_F(GalleryEvidence, MakesACellMissingWhicheverFileIsGone) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(farm_.cell_directory(FakeFarm::kPass)))
     names.insert(entry.path().filename().string());
@@ -127,14 +127,14 @@ TEST_F(GalleryEvidence, that_is_gone_makes_a_cell_missing_whichever_file_it_is) 
   }
 }
 
-TEST_F(GalleryEvidence, with_another_value_makes_a_cell_changed) {
+TEST_F(GalleryEvidence, MakesACellChangedByAnotherValue) {
   change_value("povray", [](float value) { return value - 0.42f; });
   expect_state("changed", "povray.exr is not the file that the farm wrote (SHA-256 ");
   EXPECT_THAT(cell_text_, Not(HasSubstr("✓ pass"))) << "nor the comparison with it";
   EXPECT_FALSE(fs::exists(file("povray.float.js"))) << "what is not evidence is not shown";
 }
 
-TEST_F(GalleryEvidence, that_is_not_finite_makes_a_cell_damaged_and_is_counted) {
+TEST_F(GalleryEvidence, MakesACellDamagedByValuesThatAreNotFinite) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
     const std::string text = read_file(file("povray.exr"), kMostBytes);
@@ -144,7 +144,7 @@ TEST_F(GalleryEvidence, that_is_not_finite_makes_a_cell_damaged_and_is_counted) 
   }
 }
 
-TEST_F(GalleryEvidence, that_is_cut_off_anywhere_makes_a_cell_damaged) {
+TEST_F(GalleryEvidence, MakesACellDamagedWhereverAFileIsCutOff) {
   for (const char* name : {"lobelia.exr", "povray.png", "lobelia-povray.json", "cell.json"})
     for (const double share : {0.0, 0.3, 0.98}) {
       SCOPED_TRACE(name);
@@ -157,7 +157,7 @@ TEST_F(GalleryEvidence, that_is_cut_off_anywhere_makes_a_cell_damaged) {
     }
 }
 
-TEST_F(GalleryEvidence, with_any_bit_flipped_is_never_a_pass) {
+TEST_F(GalleryEvidence, IsNeverAPassWithAnyBitFlipped) {
   std::mt19937 random(18);
   for (const char* name :
        {"lobelia.exr", "povray.exr", "povray.png", "lobelia-povray.png", "lobelia-povray.json",
@@ -175,7 +175,7 @@ TEST_F(GalleryEvidence, with_any_bit_flipped_is_never_a_pass) {
     }
 }
 
-TEST_F(GalleryEvidence, is_checked_for_a_site_of_its_own_and_for_metrics_alone_as_well) {
+TEST_F(GalleryEvidence, IsCheckedForASiteOfItsOwnAndForMetricsAlone) {
   const TemporaryDirectory elsewhere;
   for (const bool metrics_only : {false, true}) {
     options_.metrics_only = metrics_only;
@@ -189,7 +189,7 @@ TEST_F(GalleryEvidence, is_checked_for_a_site_of_its_own_and_for_metrics_alone_a
   }
 }
 
-TEST_F(GalleryEvidence, without_hashes_is_not_sealed_and_no_pass) {
+TEST_F(GalleryEvidence, IsNotSealedAndNoPassWithoutHashes) {
   const std::string sealed = read_file(file("cell.json"), kMostBytes);
   write_file(file("cell.json"), std::regex_replace(sealed, std::regex(R"(,\s*"seal": "\w+")"), ""));
   expect_state("unsealed", "without hashes");
@@ -204,7 +204,7 @@ TEST_F(GalleryEvidence, without_hashes_is_not_sealed_and_no_pass) {
   expect_state("unsealed", "without hashes");
 }
 
-TEST_F(GalleryEvidence, that_was_edited_consistently_is_judged_by_its_figures) {
+TEST_F(GalleryEvidence, IsJudgedByItsFiguresIfEditedConsistently) {
   const auto change = [&](auto how) {
     farm_.change<records::Comparison>(FakeFarm::kPass, "lobelia-povray.json", how);
   };
@@ -233,7 +233,7 @@ TEST_F(GalleryEvidence, that_was_edited_consistently_is_judged_by_its_figures) {
   EXPECT_EQ(state(), "damaged") << "nothing was judged";
 }
 
-TEST_F(GalleryEvidence, of_a_cell_whose_comparison_was_taken_out_is_no_pass) {
+TEST_F(GalleryEvidence, IsNoPassWithoutTheComparison) {
   farm_.change<records::Cell>(FakeFarm::kPass, "cell.json",
                               [](records::Cell& cell) { cell.comparisons.clear(); });
   EXPECT_EQ(state(), "missing");
@@ -243,7 +243,7 @@ TEST_F(GalleryEvidence, of_a_cell_whose_comparison_was_taken_out_is_no_pass) {
   EXPECT_EQ(state(), "unchecked");
 }
 
-TEST(GalleryJudgement, is_that_of_the_limits_with_noise_and_without) {
+TEST(GalleryJudgement, IsThatOfTheLimitsWithNoiseAndWithout) {
   const Metrics metrics(some_metrics());
   records::Comparison comparison;
   EXPECT_EQ(judge(comparison, metrics), "differs") << "without a limit nothing passes";

@@ -15,7 +15,7 @@ ShownFarm farm_of(const std::vector<int>& sizes) {
   return farm;
 }
 
-TEST(GridLayout, four_axes_are_rows_column_groups_columns_and_sections) {
+TEST(GridLayout, MakesRowsColumnGroupsColumnsAndSectionsOfFourAxes) {
   const ShownFarm farm = farm_of({6, 3, 4, 2});
   const GridLayout layout = lay_out(farm);
   EXPECT_EQ(layout.rows, 0);
@@ -23,7 +23,7 @@ TEST(GridLayout, four_axes_are_rows_column_groups_columns_and_sections) {
   EXPECT_EQ(layout.columns, 2);
 }
 
-TEST(GridLayout, lights_are_sections_wherever_the_grid_names_them) {
+TEST(GridLayout, MakesSectionsOfLightsWhereverTheGridNamesThem) {
   ShownFarm farm = farm_of({2, 6, 3, 3});
   farm.record.axes[0].name = "light";
   const GridLayout layout = lay_out(farm);
@@ -32,7 +32,7 @@ TEST(GridLayout, lights_are_sections_wherever_the_grid_names_them) {
   EXPECT_EQ(layout.columns, 3);
 }
 
-TEST(GridLayout, columns_that_would_be_too_many_are_not_grouped) {
+TEST(GridLayout, GroupsNoColumnsThatWouldBeTooMany) {
   const ShownFarm farm = farm_of({2, 6, 3});
   const GridLayout layout = lay_out(farm);
   EXPECT_EQ(layout.groups, -1);

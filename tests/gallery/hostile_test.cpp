@@ -57,7 +57,7 @@ std::string error_of(const FakeFarm& farm) {
   return "";
 }
 
-TEST(HostileRecords, markup_in_any_string_comes_out_as_text) {
+TEST(HostileRecords, ComeOutAsTextWithMarkupInAnyString) {
   const FakeFarm farm;
   spoil(farm.directory() / "farm.json", [](Json& record) { poison(record); });
   for (const std::string& id : {FakeFarm::kPass, FakeFarm::kDiffers, FakeFarm::kFailed}) {
@@ -86,7 +86,7 @@ TEST(HostileRecords, markup_in_any_string_comes_out_as_text) {
   }
 }
 
-TEST(HostileRecords, an_id_that_leads_elsewhere_is_refused_by_name) {
+TEST(HostileRecords, AreRefusedByNameForAnIdThatLeadsElsewhere) {
   for (const char* id : {"../evil", "a/b", "..", ".hidden", "/etc", "a\\b", "line\nbreak", ""}) {
     FakeFarm farm;
     farm.farm().cells[0].id = id;
@@ -97,7 +97,7 @@ TEST(HostileRecords, an_id_that_leads_elsewhere_is_refused_by_name) {
   }
 }
 
-TEST(HostileRecords, a_file_name_that_leads_elsewhere_makes_the_cell_unreadable) {
+TEST(HostileRecords, MakeACellUnreadableByAFileNameThatLeadsElsewhere) {
   const std::vector<std::pair<std::string, std::string* (*)(records::Cell&)>> places = {
       {"images[0].png", [](records::Cell& cell) { return &cell.images[0].png; }},
       {"images[0].exr", [](records::Cell& cell) { return &cell.images[0].exr; }},
@@ -118,7 +118,7 @@ TEST(HostileRecords, a_file_name_that_leads_elsewhere_makes_the_cell_unreadable)
   }
 }
 
-TEST(HostileRecords, odd_but_plain_ids_are_encoded_in_links) {
+TEST(HostileRecords, HaveOddButPlainIdsEncodedInLinks) {
   FakeFarm farm;
   for (const std::string id :
        {"a b%41#c?d", "javascript:alert(1)", "<b>&\"'", "größe", "~", "-rf"}) {
@@ -132,7 +132,7 @@ TEST(HostileRecords, odd_but_plain_ids_are_encoded_in_links) {
             6u);
 }
 
-TEST(HostileRecords, values_of_the_wrong_type_name_file_and_key) {
+TEST(HostileRecords, NameFileAndKeyOfAWrongType) {
   const std::vector<std::pair<std::string, Json>> changes = {
       {"/title", 1},           {"/axes", "x"},         {"/axes", Json::array()},
       {"/axes/0/values", {}},  {"/axes/0", 7},         {"/engines", {{"name", "x"}}},
@@ -147,14 +147,14 @@ TEST(HostileRecords, values_of_the_wrong_type_name_file_and_key) {
   }
 }
 
-TEST(HostileRecords, two_cells_of_one_id_are_refused) {
+TEST(HostileRecords, AreRefusedForTwoCellsOfOneId) {
   FakeFarm farm;
   farm.farm().cells[1].id = farm.farm().cells[0].id;
   farm.write();
   EXPECT_THAT(error_of(farm), HasSubstr("stands there twice"));
 }
 
-TEST(HostileRecords, a_grid_larger_than_any_page_is_refused) {
+TEST(HostileRecords, AreRefusedForAGridLargerThanAnyPage) {
   FakeFarm farm;
   for (int axis = 0; axis < 12; ++axis) {
     records::Axis& added = farm.farm().axes.emplace_back();
@@ -165,7 +165,7 @@ TEST(HostileRecords, a_grid_larger_than_any_page_is_refused) {
   EXPECT_THAT(error_of(farm), HasSubstr("more than 200000 cells"));
 }
 
-TEST(HostileRecords, numbers_at_the_ends_of_what_a_double_holds_are_drawn) {
+TEST(HostileRecords, AreDrawnWithNumbersAtTheEndsOfADouble) {
   for (const double odd : {std::nan(""), kInfinity, -kInfinity, 1e308, -1e308, 5e-324, 0.0, -1.0}) {
     const FakeFarm farm;
     farm.change<records::Profile>(FakeFarm::kPass, "profile.json", [&](records::Profile& profile) {
@@ -206,7 +206,7 @@ TEST(HostileRecords, numbers_at_the_ends_of_what_a_double_holds_are_drawn) {
   }
 }
 
-TEST(HostileRecords, curves_of_different_lengths_make_the_profile_unreadable) {
+TEST(HostileRecords, MakeAProfileUnreadableByCurvesOfDifferentLengths) {
   const FakeFarm farm;
   farm.change<records::Profile>(FakeFarm::kPass, "profile.json", [](records::Profile& profile) {
     profile.curve.radiance[2].second.push_back(1);
@@ -228,7 +228,7 @@ const std::vector<std::string> kNames = {"日本語.xml",
                                          std::string(250, 'x'),
                                          std::string(249, 'x') + "y"};
 
-TEST(PublishedNames, lead_to_a_page_each_and_are_text) {
+TEST(PublishedNames, LeadToAPageEachAndAreText) {
   FakeFarm farm;
   records::Axis& axis = farm.farm().axes.emplace_back();
   axis.name = "scene \u202Eemos";
@@ -257,7 +257,7 @@ TEST(PublishedNames, lead_to_a_page_each_and_are_text) {
                 HasSubstr(printable_path(kNames[i])));
 }
 
-TEST(PublishedNames, change_nothing_beside_them) {
+TEST(PublishedNames, ChangeNothingBesideThem) {
   FakeFarm farm;
   records::Axis& axis = farm.farm().axes.emplace_back();
   axis.name = "scene";

@@ -31,7 +31,7 @@ class PackedGallery : public ::testing::Test {
   GalleryOptions options_;
 };
 
-TEST_F(PackedGallery, adds_no_file_for_a_cell) {
+TEST_F(PackedGallery, AddsNoFileForACell) {
   publish(true);
   const std::size_t before = files_below(options_.site).size();
   farm_.add_cell("one_more", "pass", {});
@@ -40,7 +40,7 @@ TEST_F(PackedGallery, adds_no_file_for_a_cell) {
   EXPECT_EQ(files_below(options_.site).size(), before);
 }
 
-TEST_F(PackedGallery, leaves_nothing_of_the_other_layout) {
+TEST_F(PackedGallery, LeavesNothingOfTheOtherLayout) {
   const auto names_with = [&](bool packed) {
     publish(packed);
     std::set<std::string> names;
@@ -56,12 +56,12 @@ TEST_F(PackedGallery, leaves_nothing_of_the_other_layout) {
   EXPECT_EQ(names_with(true), packed);
 }
 
-TEST_F(PackedGallery, is_for_many_cells) {
+TEST_F(PackedGallery, IsForManyCells) {
   publish(std::nullopt);
   EXPECT_FALSE(fs::exists(options_.site / "cell.html"));
 }
 
-TEST_F(PackedGallery, has_no_link_that_leads_nowhere) {
+TEST_F(PackedGallery, HasNoLinkThatLeadsNowhere) {
   publish(true);
   const Site site(options_.site);
   EXPECT_EQ(site.pages().size(), 2u);
@@ -69,7 +69,7 @@ TEST_F(PackedGallery, has_no_link_that_leads_nowhere) {
   EXPECT_THAT(site.active_content(), IsEmpty());
 }
 
-TEST_F(PackedGallery, is_made_without_a_picture_that_cannot_be_decoded) {
+TEST_F(PackedGallery, IsMadeWithoutAPictureThatCannotBeDecoded) {
   std::string damaged = tiny_png();
   damaged.replace(damaged.size() - 30, 8, 8, '\0');
   write_file(farm_.cell_directory(FakeFarm::kPass) / "lobelia.png", damaged);
@@ -77,7 +77,7 @@ TEST_F(PackedGallery, is_made_without_a_picture_that_cannot_be_decoded) {
   for (const bool packed : {true, false}) EXPECT_NO_THROW(publish(packed)) << packed;
 }
 
-TEST(CellChunk, takes_markup_apart_without_a_loss) {
+TEST(CellChunk, TakesMarkupApartWithoutALoss) {
   EXPECT_THAT(pieces_of("<p class=\"a\">one &lt; two</p>rest"),
               ElementsAre("<p class=\"a\">", "one &lt; two", "</p>", "rest"));
   EXPECT_THAT(pieces_of("text"), ElementsAre("text"));

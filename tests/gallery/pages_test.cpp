@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-TEST(GalleryPages, every_cell_has_a_page_and_every_link_leads_somewhere) {
+TEST(GalleryPages, HaveAPageForEveryCellAndNoDeadLink) {
   const FakeFarm farm;
   EXPECT_EQ(write_gallery(farm.directory()).index, farm.directory() / "index.html");
   const Site site(farm.directory());
@@ -32,14 +32,14 @@ TEST(GalleryPages, every_cell_has_a_page_and_every_link_leads_somewhere) {
   }
 }
 
-TEST(GalleryPages, a_link_to_a_file_that_is_not_there_is_found_by_this_suite) {
+TEST(GalleryPages, ShowThatThisSuiteFindsDeadLinks) {
   const FakeFarm farm;
   write_gallery(farm.directory());
   std::filesystem::remove(farm.cell_directory(FakeFarm::kPass) / "povray.exr");
   EXPECT_THAT(Site(farm.directory()).bad_links(), Not(IsEmpty()));
 }
 
-TEST(GalleryPages, nothing_comes_from_a_network) {
+TEST(GalleryPages, TakeNothingFromANetwork) {
   const FakeFarm farm;
   write_gallery(farm.directory());
   for (auto [name, text] : files_below(farm.directory())) {
@@ -54,7 +54,7 @@ TEST(GalleryPages, nothing_comes_from_a_network) {
   EXPECT_THAT(Site(farm.directory()).active_content(), IsEmpty());
 }
 
-TEST(GalleryPages, the_same_records_give_the_same_pages_anywhere) {
+TEST(GalleryPages, AreTheSameAnywhereForTheSameRecords) {
   const FakeFarm one, other;
   write_gallery(one.directory());
   write_gallery(other.directory());
@@ -67,7 +67,7 @@ TEST(GalleryPages, the_same_records_give_the_same_pages_anywhere) {
   }
 }
 
-TEST(GalleryPages, an_engine_that_is_missing_is_named_with_how_to_get_it) {
+TEST(GalleryPages, NameAMissingEngineAndHowToGetIt) {
   const FakeFarm farm;
   write_gallery(farm.directory());
   const Site site(farm.directory());
@@ -80,7 +80,7 @@ TEST(GalleryPages, an_engine_that_is_missing_is_named_with_how_to_get_it) {
   }
 }
 
-TEST(GalleryPages, a_cell_shows_its_numbers_curves_plan_and_commands) {
+TEST(GalleryPages, ShowNumbersCurvesPlanAndCommandsOfACell) {
   const FakeFarm farm;
   write_gallery(farm.directory());
   const Site site(farm.directory());
@@ -96,7 +96,7 @@ TEST(GalleryPages, a_cell_shows_its_numbers_curves_plan_and_commands) {
   }
 }
 
-TEST(GalleryPages, what_is_missing_is_said_in_words_in_its_place) {
+TEST(GalleryPages, SayInWordsWhatIsMissing) {
   const FakeFarm farm;
   std::ofstream(farm.cell_directory(FakeFarm::kPass) / "lobelia.png") << "no picture";
   write_file(farm.cell_directory(FakeFarm::kDiffers) / "lobelia-povray.json", "{ broken");
@@ -112,7 +112,7 @@ TEST(GalleryPages, what_is_missing_is_said_in_words_in_its_place) {
   EXPECT_THAT(text_of(site.cell(FakeFarm::kMissing)), HasSubstr("lobelia farm small.xml -o out"));
 }
 
-TEST(GalleryPages, cells_that_need_a_look_are_listed_with_their_reason) {
+TEST(GalleryPages, ListCellsThatNeedALookWithTheirReason) {
   const FakeFarm farm;
   GalleryOptions options;
   options.metrics = some_metrics();
@@ -125,7 +125,7 @@ TEST(GalleryPages, cells_that_need_a_look_are_listed_with_their_reason) {
   EXPECT_THAT(list, Not(HasSubstr("n = 16 · ")));
 }
 
-TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_to_do) {
+TEST(GalleryPages, AreRefusedWithoutAFarmAndTheErrorSaysWhatToDo) {
   const TemporaryDirectory empty;
   try {
     write_gallery(empty.path());
@@ -138,8 +138,7 @@ TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_t
   EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
 }
 
-TEST(GalleryPages,
-     in_a_directory_of_its_own_the_site_is_complete_and_a_second_time_changes_nothing) {
+TEST(GalleryPages, AreCompleteInTheirOwnDirectoryAndUnchangedASecondTime) {
   const FakeFarm farm;
   const TemporaryDirectory scratch;
   GalleryOptions options;
@@ -159,7 +158,7 @@ TEST(GalleryPages,
   EXPECT_EQ(times(), before);
 }
 
-TEST(GalleryPages, a_cell_that_is_gone_leaves_nothing_behind_but_what_others_put_there) {
+TEST(GalleryPages, KeepNothingOfAGoneCellButFilesOfOthers) {
   FakeFarm farm;
   const TemporaryDirectory scratch, elsewhere;
   GalleryOptions options;
@@ -185,7 +184,7 @@ TEST(GalleryPages, a_cell_that_is_gone_leaves_nothing_behind_but_what_others_put
   EXPECT_THAT(Site(scratch.path()).bad_links(), IsEmpty());
 }
 
-TEST(GalleryPages, script_and_style_are_those_that_were_built) {
+TEST(GalleryPages, HaveTheScriptAndStyleThatWereBuilt) {
   const FakeFarm farm;
   write_gallery(farm.directory());
   for (const char* file : {"gallery.js", "gallery.css"}) {
@@ -195,7 +194,7 @@ TEST(GalleryPages, script_and_style_are_those_that_were_built) {
   }
 }
 
-TEST(GalleryPages, the_script_was_compiled_with_the_types_of_the_tables) {
+TEST(GalleryPages, HaveAScriptCompiledWithTheTypesOfTheTables) {
   const auto types = std::filesystem::path(LOBELIA_SOURCE_DIR) / "gallery/web/src/records.ts";
   EXPECT_EQ(read_file(types, 1 << 20), records::typescript_text())
       << "lobelia records --typescript > gallery/web/src/records.ts, and build the script anew";

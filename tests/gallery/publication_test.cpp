@@ -112,7 +112,7 @@ void require_nothing_told(const std::map<std::string, std::string>& files,
   }
 }
 
-TEST(Publication, tells_nothing_of_the_machine_in_any_file_of_any_form) {
+TEST(Publication, TellsNothingOfTheMachineInAnyFileOfAnyForm) {
   const TelltaleFarm farm;
   const TemporaryDirectory place;
   const auto before = files_below(farm.directory());
@@ -131,7 +131,7 @@ TEST(Publication, tells_nothing_of_the_machine_in_any_file_of_any_form) {
   EXPECT_THAT(log, HasSubstr("see https://povray.org/a/b"));
 }
 
-TEST(Publication, has_hashes_of_what_it_publishes_and_seals_that_fit) {
+TEST(Publication, HasHashesOfItsFilesAndSealsThatFit) {
   const TelltaleFarm farm;
   const TemporaryDirectory place;
   write_publication(farm.directory(), farm.options(place.path() / "site"));
@@ -152,7 +152,7 @@ TEST(Publication, has_hashes_of_what_it_publishes_and_seals_that_fit) {
   }
 }
 
-TEST(Publication, does_not_make_a_changed_file_right) {
+TEST(Publication, DoesNotMakeAChangedFileRight) {
   const TelltaleFarm farm;
   const TemporaryDirectory place;
   write_file(farm.cell_directory(FakeFarm::kPass) / "povray.json",
@@ -165,7 +165,7 @@ TEST(Publication, does_not_make_a_changed_file_right) {
               HasSubstr("is not the file that the farm wrote"));
 }
 
-TEST(Publication, names_style_and_script_by_content_and_removes_the_old_ones) {
+TEST(Publication, NamesStyleAndScriptByContentAndRemovesTheOldOnes) {
   const FakeFarm farm;
   const TemporaryDirectory place;
   GalleryOptions options;
@@ -196,7 +196,7 @@ TEST(Publication, names_style_and_script_by_content_and_removes_the_old_ones) {
   EXPECT_FALSE(fs::exists(options.site / "gallery-0123456789.js"));
 }
 
-TEST(Publication, is_the_same_bytes_for_the_same_run) {
+TEST(Publication, IsTheSameBytesForTheSameRun) {
   const FakeFarm farm;
   const TemporaryDirectory place;
   GalleryOptions options;
@@ -223,7 +223,7 @@ TEST(Publication, SaysWhatWritesAZip) {
   }
 }
 
-TEST(Publication, refuses_what_is_not_its_own) {
+TEST(Publication, RefusesADirectoryThatIsNotItsOwn) {
   const FakeFarm farm;
   const TemporaryDirectory place;
   const fs::path foreign = place.path() / "foreign";
@@ -257,7 +257,7 @@ TEST(Publication, refuses_what_is_not_its_own) {
     EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
 }
 
-TEST(Publication, a_killed_one_is_known_again_and_its_unfinished_files_go) {
+TEST(Publication, IsKnownAgainAfterAKillAndLosesItsUnfinishedFiles) {
   const TemporaryDirectory place;
   const fs::path site = place.path() / "site", empty = place.path() / "empty";
   const std::set<std::string> own{"index.html", "comparison.json"};
@@ -286,7 +286,7 @@ TEST(Publication, a_killed_one_is_known_again_and_its_unfinished_files_go) {
   EXPECT_FALSE(fs::exists(empty / unfinished("x")));
 }
 
-TEST(Publication, does_not_write_its_list_through_a_link) {
+TEST(Publication, DoesNotWriteItsListThroughALink) {
   const TemporaryDirectory place;
   const fs::path site = place.path() / "site";
   fs::create_directory(site);
@@ -297,7 +297,7 @@ TEST(Publication, does_not_write_its_list_through_a_link) {
   EXPECT_EQ(kind_of_site(site), SiteKind::kGallery);
 }
 
-TEST(Publication, a_killed_one_leaves_no_key_of_a_file_that_it_made_anew) {
+TEST(Publication, LeavesNoKeyOfANewFileAfterAKill) {
   const TemporaryDirectory place;
   const auto publish = [&](const char* key, bool to_the_end) {
     Publisher publisher(place.path() / "site");
@@ -311,7 +311,7 @@ TEST(Publication, a_killed_one_leaves_no_key_of_a_file_that_it_made_anew) {
   EXPECT_EQ(content(place.path() / "site/derived"), "one");
 }
 
-TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behind) {
+TEST(Publication, FailsAndLeavesNothingAtALinkOutOfTheRun) {
   const FakeFarm farm;
   const TemporaryDirectory place, elsewhere;
   const fs::path log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
@@ -335,7 +335,7 @@ TEST(Publication, that_finds_a_link_out_of_the_run_fails_and_leaves_nothing_behi
   EXPECT_NO_THROW(write_publication(farm.directory(), options));
 }
 
-TEST(Publication, in_one_file_is_small_or_one_cell) {
+TEST(Publication, IsInOneFileOnlyIfSmallOrOneCell) {
   FakeFarm farm;
   const TemporaryDirectory place;
   GalleryOptions options;

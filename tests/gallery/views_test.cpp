@@ -173,7 +173,7 @@ TEST_P(RecordViews, AreNotThereWithoutTheirRecord) {
   EXPECT_FALSE(std::filesystem::exists(farm_.directory() / page()));
 }
 
-TEST_P(RecordViews, OfABrokenRecordSaySoAndTheGalleryIsThere) {
+TEST_P(RecordViews, SayThatARecordIsBrokenAndTheGalleryIsThere) {
   // Every member in turn of another type, and gone.
   const Json whole = Json::parse(GetParam().record());
   put(GetParam().record());
