@@ -24,6 +24,7 @@
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
+#include "core/reading_limits.hpp"
 #include "core/scratch_memory.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
@@ -322,6 +323,11 @@ Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
                   fmt::format("{}: cannot be loaded: a library is missing, or there is not enough "
                               "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
                               kReaderFile));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+      throw Error(ExitCode::kNoResources,
+                  fmt::format("{}: OpenImageIO could not be loaded within {} s. Perhaps the system "
+                              "gives no more threads (ulimit -u, cgroup pids.max)",
+                              kReaderFile, kSecondsToLoad));
     // A picture cannot end the reader itself, so it was killed, or the system failed it. A second try gets a new one.
     if (attempt == 1) throw_failed_twice(path, status);
   }

@@ -277,10 +277,14 @@ class Server {
   }
 
  private:
+  /// Ends the process if that takes too long: a library that starts threads while it is loaded, as log4cplus does, may wait
+  /// for ever where the system refuses one.
   void load() {
     if (table_) return;
+    ::alarm(kSecondsToLoad);
     table_ = &image_io_table();
     table_->load_formats();
+    ::alarm(0);
   }
   ReaderVerdict decode_in_child(const Job& job, std::uint64_t most_seconds) const {
     const std::uint64_t began_with = address_space();
@@ -305,6 +309,7 @@ int run() {
   ::close_range(3, ~0u, 0);  // whatever the program left open
   ::signal(SIGCHLD, SIG_DFL);
   ::signal(SIGXCPU, SIG_DFL);
+  ::signal(SIGALRM, SIG_DFL);
   Server server;
   for (Job job; receive(job);)
     if (!server.answer(job)) break;

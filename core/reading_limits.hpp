@@ -21,6 +21,9 @@ std::uint64_t memory_to_read(const PictureClaim& claim, std::uint64_t file_bytes
 /// Processor time for all threads together; `claim` is empty before the header is known.
 std::uint64_t seconds_to_read(const PictureClaim& claim, std::uint64_t file_bytes);
 
+/// Wall time for OpenImageIO to be loaded, which takes half a second of processor time.
+constexpr unsigned kSecondsToLoad = 30;
+
 /// Wall time after which the process is killed: far more than a busy machine needs.
 std::uint64_t seconds_to_wait(std::uint64_t file_bytes, const PictureLimit& limit);
 
