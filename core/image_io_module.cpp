@@ -369,6 +369,8 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   const OIIO::ImageSpec spec = input->spec(part);
   const std::string format = input->format_name();
   if (is_cut_off(file.bytes, format)) unreadable(path, "it is cut off");
+  if (format == "dpx" && is_dpx_in_columns(file.bytes))
+    unreadable(path, "its lines are columns of the picture; write it in rows");
   if (format == "heif" && is_heif_of_hdr(file.bytes))
     unreadable(
         path,

@@ -79,10 +79,14 @@ int of_radiance(std::string_view file) {
 }
 
 /// SMPTE ST 268, field 30: the direction of the values of a line, then of the lines.
-int of_dpx(std::string_view file) {
+std::uint64_t field_of_dpx(std::string_view file) {
   constexpr std::size_t kPlace = 768;
-  constexpr int kByField[] = {1, 2, 4, 3, 5, 6, 8, 7};
-  const std::uint64_t field = number_at(file, kPlace, file.starts_with("XPDS"), 2);
+  return number_at(file, kPlace, file.starts_with("XPDS"), 2);
+}
+
+int of_dpx(std::string_view file) {
+  constexpr int kByField[] = {1, 2, 4, 3};
+  const std::uint64_t field = field_of_dpx(file);
   return field < std::size(kByField) ? kByField[field] : kUpright;
 }
 
@@ -141,6 +145,11 @@ Image turned_upright(Image stored, int orientation) {
 }
 
 }  // namespace
+
+bool is_dpx_in_columns(std::string_view file) {
+  const std::uint64_t field = field_of_dpx(file);
+  return field >= 4 && field < 8;
+}
 
 int stated_orientation(std::string_view file, std::string_view format, std::size_t page) {
   if (format == "jpeg")

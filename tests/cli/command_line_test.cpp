@@ -71,7 +71,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
        "unknown subcommand 'papers' of 'lobelia verify'; allowed: paper, stability, references, "
        "verdicts, profiles, highlights; did you mean 'paper'?"},
       {{"farm", "stauts", "out"}, 2, "did you mean 'status'?"},
-      {{"gallery", "sevre", "out"}, 2, "did you mean 'serve'?"},
+      {{"gallery", "pubilsh", "out"}, 2, "did you mean 'publish'?"},
       {{"farm", "status", "--josn", "-", "out"}, 2, "did you mean '--json'?"},
       {{"render", "--sampels", "3"}, 2, "has no option '--sampels'; did you mean '--samples'?"},
       {{"render", scene, "--normalization=exact"}, 2, "did you mean '--normalisation'?"},

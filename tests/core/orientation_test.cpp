@@ -80,8 +80,8 @@ class Orientation : public PictureFiles {
 
   /// For each orientation and several random pictures; `encode` gives the bytes of a file that states it.
   template <class Encode>
-  void expect_upright(const std::string& ending, const Encode& encode) {
-    for (int orientation = 1; orientation <= 8; ++orientation)
+  void expect_upright(const std::string& ending, const Encode& encode, int most = 8) {
+    for (int orientation = 1; orientation <= most; ++orientation)
       for (int i = 0; i < 4; ++i) {
         const Pixels shown = random_pixels(side(), side());
         expect_shown(file("upright" + ending, encode(shown, 1)),
@@ -213,47 +213,33 @@ TEST_F(Orientation, ComesFromTheExifOfAWebP) {
 }
 
 TEST_F(Orientation, ComesFromTheHeaderOfADpx) {
-  // SMPTE ST 268: along a line, then from line to line.
-  constexpr std::array<std::string_view, 8> kFields{
-      "left to right, top to bottom", "right to left, top to bottom",
-      "left to right, bottom to top", "right to left, bottom to top",
-      "top to bottom, left to right", "top to bottom, right to left",
-      "bottom to top, left to right", "bottom to top, right to left"};
-  // Where the first line and the first value of a line are seen, as in stored().
-  constexpr std::array<std::string_view, 8> kSeen{
-      "left to right, top to bottom", "right to left, top to bottom",
-      "right to left, bottom to top", "left to right, bottom to top",
-      "top to bottom, left to right", "top to bottom, right to left",
-      "bottom to top, right to left", "bottom to top, left to right"};
-  for (const bool little : {false, true})
-    expect_upright(".dpx", [&](const Pixels& pixels, int orientation) {
-      std::string bytes =
-          dpx_file(std::uint32_t(pixels.width), std::uint32_t(pixels.height), pixels.bytes());
-      const auto* const field = std::ranges::find(kFields, kSeen[std::size_t(orientation) - 1]);
-      bytes[769] = char(field - kFields.begin());
-      if (little)
-        for (const auto& [at, size] : {std::pair(0, 4),
-                                       {4, 4},
-                                       {16, 4},
-                                       {24, 4},
-                                       {28, 4},
-                                       {768, 2},
-                                       {770, 2},
-                                       {772, 4},
-                                       {776, 4},
-                                       {784, 4},
-                                       {788, 4},
-                                       {792, 4},
-                                       {804, 2},
-                                       {806, 2},
-                                       {808, 4}})
-          std::reverse(bytes.begin() + at, bytes.begin() + at + size);
-      return bytes;
-    });
-  std::string odd = dpx_file(4, 2, std::string(24, 'x'));
-  for (const int field : {8, 255}) {
-    odd[769] = char(field);
-    EXPECT_EQ(read_picture(file("odd.dpx", odd), "").source.orientation, 1) << field;
+  // SMPTE ST 268: 0 is upright, 1 mirrored, 2 upside down, 3 both. From 4 on lines are columns.
+  constexpr std::array<char, 4> kFields{0, 1, 3, 2};
+  const auto encode = [](const Pixels& pixels, char field, bool little) {
+    std::string bytes =
+        dpx_file(std::uint32_t(pixels.width), std::uint32_t(pixels.height), pixels.bytes());
+    bytes[769] = field;
+    constexpr std::array<int, 10> kLong{0, 4, 16, 24, 28, 772, 776, 784, 788, 792};
+    constexpr std::array<int, 4> kShort{768, 770, 804, 806};
+    if (!little) return bytes;
+    for (const int at : kLong) std::reverse(bytes.begin() + at, bytes.begin() + at + 4);
+    for (const int at : kShort) std::reverse(bytes.begin() + at, bytes.begin() + at + 2);
+    std::reverse(bytes.begin() + 808, bytes.begin() + 812);
+    return bytes;
+  };
+  for (const bool little : {false, true}) {
+    expect_upright(
+        ".dpx",
+        [&](const Pixels& pixels, int orientation) {
+          return encode(pixels, kFields[std::size_t(orientation) - 1], little);
+        },
+        int(kFields.size()));
+    const Pixels shown = random_pixels(side(), side());
+    for (const char field : {4, 5, 6, 7})
+      EXPECT_THROW(read_image(file("columns.dpx", encode(shown, field, little))), Error);
+    for (const char field : {8, 127})
+      EXPECT_EQ(read_picture(file("odd.dpx", encode(shown, field, little)), "").source.orientation,
+                1);
   }
 }
 
