@@ -235,9 +235,9 @@ TEST_F(Orientation, ComesFromTheHeaderOfADpx) {
         },
         int(kFields.size()));
     const Pixels shown = random_pixels(side(), side());
-    for (const char field : {4, 5, 6, 7})
+    for (const char field : {char(4), char(5), char(6), char(7)})
       EXPECT_THROW(read_image(file("columns.dpx", encode(shown, field, little))), Error);
-    for (const char field : {8, 127})
+    for (const char field : {char(8), char(127)})
       EXPECT_EQ(read_picture(file("odd.dpx", encode(shown, field, little)), "").source.orientation,
                 1);
   }
