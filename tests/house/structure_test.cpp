@@ -13,6 +13,7 @@
 namespace house {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
@@ -96,6 +97,19 @@ Problems forbidden_arrows(const fs::path& root) {
 
 TEST(Rooms, HaveArrowsThatPointDownOnly) { EXPECT_THAT(forbidden_arrows(kRoot), IsEmpty()); }
 
+TEST(Rooms, ShowEveryKindOfForbiddenArrow) {
+  Scratch tree;
+  write(tree / "core/up.hpp", "\n#include \"renderer/highlight.hpp\"\n");
+  write(tree / "farm/CMakeLists.txt", "lobelia_room(farm LINK lobelia::core lobelia::gallery)\n");
+  write(tree / "compare/read.cpp", "#include <OpenImageIO/imageio.h>\n");
+  write(tree / "attic/new_room.cpp", "int x;\n");
+  EXPECT_THAT(forbidden_arrows(tree.path()),
+              ElementsAre("attic/new_room.cpp: attic is no room that kMaySee of this test knows",
+                          "compare/read.cpp:1: may not include OpenImageIO/imageio.h",
+                          "core/up.hpp:2: core may not see renderer",
+                          "farm/CMakeLists.txt:1: farm may not see gallery"));
+}
+
 // ---- lines that may not stand anywhere
 
 /// Lines of files that `applies` admits which match `pattern`.
@@ -134,6 +148,12 @@ Problems loose_keys(const fs::path& root) {
 }
 
 TEST(Records, AloneSpellTheirKeys) { EXPECT_THAT(loose_keys(kRoot), IsEmpty()); }
+
+TEST(Records, ShowKeysThatAreSpeltElsewhere) {
+  Scratch tree;
+  write(tree / "farm/a.cpp", "#include <nlohmann/json.hpp>\ntext = \"{\\\"name\\\": 1}\";\n");
+  EXPECT_EQ(loose_keys(tree.path()).size(), 2u);
+}
 
 /// Sources that are not generated and that nobody reads at one sitting.
 Problems long_files(const fs::path& root) {
