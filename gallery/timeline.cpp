@@ -60,7 +60,7 @@ void write_timeline(Html& html, const ShownFarm& farm, const Timeline& line) {
               .bands = {},
               .series = {std::move(limit), std::move(measured)}};
   fit_axis(chart.y, chart.series, metric.more_is_better);
-  const Tag figure(html, "figure", {{"class", "chart-figure timeline"}});
+  const Tag figure(html, "figure", {{"class", "chart-figure timeline"}, {"tabindex", "0"}});
   html.element("figcaption", chart.title);
   html.raw(draw_chart(chart));
 }
