@@ -29,6 +29,24 @@ def test_a_profile_is_a_dataframe_of_its_curve(image, scene):
 
 def test_cost_is_a_dataframe_of_its_variants(small_scene):
     pytest.importorskip("pandas")
+    record = lobelia.cost(small_scene, level="picture", effort="quick")
+    frame = record.to_dataframe()
+    assert len(frame) == sum(len(table.ways) for table in record.tables)
+    assert {"table", "variant"} <= set(frame.columns)
+
+
+def test_plots_show_what_the_records_say(image, scene):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import lobelia.plot
+
+    small = {"scene": scene, "width": 96, "height": 96}
+    one = lobelia.profile(image, scene=small, light=0)
+    ax = lobelia.plot.profile(one)
+    assert [line.get_label() for line in ax.lines] == [name for name in one.curve if name not in ("angleDegrees", "pixels")]
+    assert list(ax.lines[0].get_xdata()) == one.curve.angle_degrees
+    assert lobelia.plot.profile(lobelia.profile(image)).lines
+    assert lobelia.plot.profile(lobelia.profile(image, scene=small)).lines
     ax = lobelia.plot.difference(lobelia.compare(image, image * np.float32(1.1)))
     assert ax.images[0].get_array().shape == image.shape[:2]
 
