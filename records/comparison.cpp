@@ -173,7 +173,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("nonfinite").unit("pixels").at_least(0);
     t.key("metrics", "of c against b").may_be_nonfinite();
   });
-  constexpr std::string_view kFinding =
+  static constexpr std::string_view kFinding =
       "of identifiers that differ: which one is most often where another should be";
   tables.define<LayerComparison>("The comparison of another layer of both files.", [](auto& t) {
     t.key("type", "what its values are").one_of(kLayerTypes).if_any();
