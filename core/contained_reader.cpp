@@ -252,6 +252,13 @@ Outcome receive_answer(int pipe) {
                           exited ? "exit code" : "signal", code));
 }
 
+[[noreturn]] void throw_not_loaded() {
+  throw Error(ExitCode::kNoResources,
+              fmt::format("{}: OpenImageIO could not be loaded within {} s. Perhaps the system "
+                          "gives no more threads (ulimit -u, cgroup pids.max)",
+                          kReaderFile, kSecondsToLoad));
+}
+
 /// Empty if the decoder ended normally.
 std::string decoder_problem(const ReaderVerdict& verdict) {
   if (verdict.too_long) return "the decoder did not end; it was stopped";
@@ -269,6 +276,9 @@ enum class Asked : std::uint8_t { kPicture, kStoredPicture, kNames };
 Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
             const PictureLimit& limit) {
   static Pool pool;
+  // Once is enough: another picture would wait as long.
+  static std::atomic<bool> not_loaded{false};
+  if (not_loaded) throw_not_loaded();
   throw_if_interrupted();
   const fs::path& path = file.path();
   ReadingRequest request{.names_only = asked == Asked::kNames,
@@ -323,11 +333,10 @@ Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
                   fmt::format("{}: cannot be loaded: a library is missing, or there is not enough "
                               "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
                               kReaderFile));
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-      throw Error(ExitCode::kNoResources,
-                  fmt::format("{}: OpenImageIO could not be loaded within {} s. Perhaps the system "
-                              "gives no more threads (ulimit -u, cgroup pids.max)",
-                              kReaderFile, kSecondsToLoad));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
+      not_loaded = true;
+      throw_not_loaded();
+    }
     // A picture cannot end the reader itself, so it was killed, or the system failed it. A second try gets a new one.
     if (attempt == 1) throw_failed_twice(path, status);
   }
