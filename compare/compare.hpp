@@ -57,7 +57,7 @@ struct ComparisonOptions {
   bool allow_equal_nonfinite = false;
   std::optional<NoiseOptions> noise = {};  ///< if set, the verdict is same, different or undecided
   std::vector<LayerTypeChoice> layer_types = {};  ///< of layers of files; see compare_pictures()
-  /// What the metrics of the layer's type need; null for a layer of colours.
+  /// Input of the metrics for the layer's type; null for a layer of colours.
   const LayerInput* layer = nullptr;
 };
 

@@ -94,10 +94,10 @@ Error as_error(const std::exception& error) {
   if (!of_file) {
     if (const std::string lack = lacking(error); !lack.empty())
       return Error(ExitCode::kNoResources, lack);
-    // std::thread has no other words than errno's. A mutex that would wait for itself is a bug of ours.
+    // Threads and locks throw it, with no other words than errno's. A lock that would wait for itself is a bug of ours.
     if (const int number = errno_of(error); number != 0 && number != EDEADLK)
       return Error(ExitCode::kNoResources,
-                   fmt::format("the system refuses a thread: {}", error.what()));
+                   fmt::format("the system refuses a thread or a lock: {}", error.what()));
     return Error(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
   }
   // "filesystem error: WHAT: WHY [PATH]"

@@ -23,7 +23,7 @@ Error failure_of(const std::string& what, const std::exception& error, ExitCode 
 /// EINTR, says that the system could not look, so nothing is known of the file.
 bool tells_of_file(int error);
 
-/// For an exception that nothing expects. kNoResources if lacking(), or if the system refused a thread. Where
+/// For an exception that nothing expects. kNoResources if lacking(), or if the system refused a thread or a lock. Where
 /// std::filesystem failed, "PATH: WHAT: WHY" with kInput, or kOutput if there is no room or nothing may be written.
 /// Otherwise kInternal.
 Error as_error(const std::exception& error);

@@ -18,7 +18,7 @@ inline constexpr int kUpright = 1, kMostOrientation = 8;
 /// undoes the orientation of a TGA.
 int stated_orientation(std::string_view file, std::string_view format, std::size_t page = 0);
 
-/// Whether the lines of a DPX are columns of what it shows. OpenImageIO 2.4 exchanges width and height of some of them.
+/// Whether the lines of a DPX are columns of what it shows. OpenImageIO 2.4 exchanges width and height of such a file.
 bool is_dpx_in_columns(std::string_view file);
 
 /// What is left of the orientation of a TIFF's page after OpenImageIO has read it. It reads YCbCr and some JPEGs by

@@ -1,4 +1,4 @@
-// What a published site does not tell of the machine that made it: paths, names of hosts and users, process IDs. A text that
+// Keeps a published site from telling of the machine that made it: paths, names of hosts and users, process IDs. A text that
 // could tell one is left out whole; paths and commands are published as the names of their files.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What `lobelia verify profiles` and `lobelia verify highlights` measured.
+// Records of `lobelia verify profiles` and `lobelia verify highlights`.
 #pragma once
 
 #include "records/struct_type.hpp"

@@ -197,7 +197,7 @@ struct SumVariance {
   }
 };
 
-/// Of the sum of a value of each pixel. Neighbours may share what they deviate by, so the variance is the largest of
+/// Estimates the variance of a sum of one value for each pixel. Neighbours may err together, so it is the largest of
 /// those by blocks of 1, 2, 4 ... pixels to a side, as long as there are enough blocks.
 SumVariance variance_of_sum(const std::vector<Term>& terms, const std::vector<double>& values) {
   constexpr std::size_t kFewestBlocks = 30;

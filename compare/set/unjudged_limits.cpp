@@ -24,7 +24,7 @@ class NamesOnce {
   std::set<std::string> known_;
 };
 
-/// What was given, and what of it was judged by.
+/// The limits that were given, and those of them that judged something.
 struct GivenLimits {
   NamesOnce given;
   std::set<std::string> judged;
@@ -36,7 +36,7 @@ struct GivenLimits {
     for (const auto* results : {&comparison.limits, &comparison.warnings})
       for (const LimitResult& limit : *results) judged.insert(limit.metric);
   }
-  /// Of a layer that was not measured: it is identical, or another size.
+  /// Counts the limits for a layer that was not measured, because it is identical or of another size.
   void add_judged_by_type(LayerType type) {
     for (const std::string& metric : given.names)
       if (can_judge(type, metric, true)) judged.insert(metric);

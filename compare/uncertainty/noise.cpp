@@ -214,13 +214,22 @@ std::vector<Image*> PictureNoise::images() {
 }
 
 double PictureNoise::own_variance(std::size_t value) const {
+  constexpr double kOne[] = {1};
+  return own_variance(value, kOne);
+}
+
+double PictureNoise::own_variance(std::size_t first, std::span<const double> weights) const {
   if (deviations.empty()) {
-    const double error = double(standard_error.values()[value]);
+    double error = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      error += std::abs(weights[i]) * double(standard_error.values()[first + i]);
     return error * error;
   }
   double last = 0, squares = 0;
   for (const Image& deviation : deviations) {
-    const double apart = double(deviation.values()[value]);
+    double apart = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      apart += weights[i] * double(deviation.values()[first + i]);
     last -= apart;
     squares += apart * apart;
   }

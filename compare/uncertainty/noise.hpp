@@ -26,6 +26,7 @@
 //               tests/compare/uncertainty_test.cpp measures the levels.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct PictureNoise {
   bool has_heavy_tails() const;
   /// The squared standard error of a value, by its own replicates alone.
   double own_variance(std::size_t value) const;
+  /// The same of the weighted sum of the values from `first` on. Standard errors tell nothing of how values err together, so
+  /// they count as erring together, which is the upper bound.
+  double own_variance(std::size_t first, std::span<const double> weights) const;
   /// All its pictures, each of the size of the picture, 0 where it has no noise.
   std::vector<Image*> images();
 };

@@ -10,25 +10,6 @@ namespace {
 
 using Weights = std::array<double, 3>;
 
-/// The variance of the weighted sum over a pixel's channels, by its own replicates.
-double own_variance(const PictureNoise& noise, std::size_t pixel, const Weights& weights) {
-  if (noise.deviations.empty()) {
-    double error = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      error += std::abs(weights[c]) * double(noise.standard_error.values()[3 * pixel + c]);
-    return error * error;
-  }
-  double last = 0, squares = 0;
-  for (const Image& deviation : noise.deviations) {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      sum += weights[c] * double(deviation.values()[3 * pixel + c]);
-    last -= sum;
-    squares += sum * sum;
-  }
-  return (squares + last * last) / (noise.freedom * (noise.freedom + 1));
-}
-
 void add_noise(const PictureNoise* noise, std::size_t pixel, const Weights& weights, NoisySum& sum,
                double& shared) {
   if (!noise) return;
@@ -39,7 +20,7 @@ void add_noise(const PictureNoise* noise, std::size_t pixel, const Weights& weig
     shared += error;
     return;
   }
-  const double cautious = error * error, own = own_variance(*noise, pixel, weights);
+  const double cautious = error * error, own = noise->own_variance(3 * pixel, weights);
   sum.cautious += cautious;
   sum.cautious_squares += cautious * cautious / noise->freedom;
   sum.own += own;

@@ -82,7 +82,7 @@ TEST_F(UnjudgedLimits, AreThoseOfColoursWhereTheLayerIsAnother) {
   EXPECT_EQ(refusal(asked), "") << "a metric of all values";
 }
 
-TEST_F(UnjudgedLimits, OfASetNeedOnePairWithSuchALayer) {
+TEST_F(UnjudgedLimits, NeedOnlyOnePairOfASetWithSuchALayer) {
   folder("a", 1.0f);
   folder("b", 2.0f);
   CompareChoice asked = choice({"depth.relative.max=0.01"});

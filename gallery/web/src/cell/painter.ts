@@ -1,4 +1,4 @@
-// What a stage shows. float_painter.ts paints it from float pictures, png_painter.ts from 8-bit pictures.
+// Paints the picture on a stage: float_painter.ts from float pictures, png_painter.ts from 8-bit pictures.
 
 import type { FloatPicture } from './half_picture';
 

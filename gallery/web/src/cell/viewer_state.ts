@@ -1,4 +1,4 @@
-// What a cell's viewer shows now: the reader's choice, the pictures and maps that are loaded, and the cursor.
+// The state of a cell's viewer: the reader's choice, the pictures and maps that are loaded, and the cursor.
 import { clamp, toNumber } from '../lib/numbers';
 import type { CellPage } from '../records';
 import type { Camera } from './camera';
