@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "records/farm.hpp"
-#include "reference_scenes/engine_content.hpp"
+#include "reference_scenes/content.hpp"
 #include "reference_scenes/engines/outside/outside.hpp"
 
 namespace lobelia {

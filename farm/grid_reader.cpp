@@ -12,7 +12,6 @@
 #include "core/text.hpp"
 #include "farm/grid_choices.hpp"
 #include "reference_scenes/engine.hpp"
-#include "reference_scenes/engines/outside/command_text.hpp"
 #include "reference_scenes/engines/outside/outside_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -91,7 +91,7 @@ constexpr std::string_view state_name(EngineState state) {
   return records::kEngineStates[std::size_t(state)];
 }
 
-/// The files of an engine that were seen when it was asked for its version; engine_content.hpp hashes them.
+/// The files of an engine that were seen when it was asked for its version; content.hpp hashes them.
 struct EngineFiles {
   std::vector<std::filesystem::path> programs;   ///< started; a wrapper script starts several
   std::vector<std::filesystem::path> libraries;  ///< loaded by these

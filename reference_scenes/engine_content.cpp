@@ -1,4 +1,4 @@
-#include "reference_scenes/engine_content.hpp"
+#include "reference_scenes/content.hpp"
 
 #include <fmt/format.h>
 

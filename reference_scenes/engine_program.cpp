@@ -16,7 +16,7 @@
 #include "core/numbers.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
-#include "reference_scenes/engine_content.hpp"
+#include "reference_scenes/content.hpp"
 #include "renderer/render_record.hpp"
 
 namespace lobelia {

@@ -70,7 +70,7 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
 Failure read_engine_picture(const EngineInfo& engine, const std::function<PictureFile()>& open,
                             const Film& film, Image& image);
 
-/// The result of a scene without a picture.
+/// The result of a scene without a picture, or before it has one.
 ReferenceResult failed_result(const EngineInfo& engine, const EngineStatus& status,
                               const Scene& scene, const Failure& failure);
 

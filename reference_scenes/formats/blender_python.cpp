@@ -1,7 +1,7 @@
 // A script that builds the scene in Blender, for people to look at and to go on with. The reference engine is another one
 // (engines/blender), which shows our formulas.
 #include "records/record.hpp"
-#include "reference_scenes/formats/formats.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
 
 namespace lobelia {
 namespace embedded {

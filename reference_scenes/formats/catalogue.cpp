@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "reference_scenes/formats/formats.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {

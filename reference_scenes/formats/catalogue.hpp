@@ -1,5 +1,5 @@
-// Forms of a scene for other programs. To add one: write its file in this folder (or in its engine's), declare it in
-// formats.hpp, and add it to the list in catalogue.cpp.
+// Forms of a scene for other programs. To add one: write its file in this folder (or in its engine's), declare it
+// below, and add it to the list in catalogue.cpp.
 #pragma once
 
 #include <map>
@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "records/scene.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -27,5 +28,19 @@ struct SceneFormat {
 std::span<const SceneFormat> scene_formats();
 /// Throws Error(kUsage), with the nearest name.
 const SceneFormat& scene_format(std::string_view name);
+
+// The formats, each in a file of its own, and what several of them need.
+
+extern const SceneFormat kJsonFormat, kMitsubaFormat, kPovrayFormat, kBlenderPythonFormat;
+
+/// The most spheres that are written out one by one. Our own reader takes at most kMaxSceneBytes.
+inline constexpr std::size_t kMaxWrittenSpheres = 200'000;
+/// Why a scene with so many spheres is not written; empty if it is.
+std::string why_not_so_many_spheres(const Scene& scene);
+/// The same, or why a format that spells out each type of light does not know one of the scene's.
+std::string why_not_spelled_out(const Scene& scene);
+
+/// The scene as numbers.
+records::Scene scene_record(const Scene& scene);
 
 }  // namespace lobelia

@@ -1,6 +1,6 @@
 // A scene as a flat record: everything resolved to numbers, nothing to look up.
 #include "records/record.hpp"
-#include "reference_scenes/formats/formats.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
 
 namespace lobelia {
 namespace {

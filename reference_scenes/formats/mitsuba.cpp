@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/text.hpp"
-#include "reference_scenes/formats/formats.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
 #include "reference_scenes/formats/mitsuba.hpp"
 #include "renderer/frame.hpp"
 

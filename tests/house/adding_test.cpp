@@ -103,7 +103,7 @@ void add_model(const fs::path& tree) {
              "    \"throwaway\": Model(False, False, 1.0, True, 1,\n"
              "                       lambda n, tail: (n + 2) / (2 * math.pi),\n"
              "                       lambda n: (1.063 * n + 1) / (2 * math.pi)),\n");
-  model.list("reference_scenes/engines/analytic/formulas/model.cpp", "kRows[] = {\n",
+  model.list("reference_scenes/engines/analytic/formulas/highlight.cpp", "kRows[] = {\n",
              "    {\"throwaway\", kR, true, false, true, 1},\n");
   model.expect_as_documented();
 }
@@ -149,7 +149,6 @@ void add_engine(const fs::path& tree) {
                         {"Analytic", "Throwaway"},
                         {"analytic_", "throwaway_"},
                         {"make_analytic", "make_throwaway"},
-                        {"to_image", "throwaway_image"},
                         {"\"analytic", "\"throwaway"},
                         {"'analytic'", "'throwaway'"}};
   const std::string folder = "reference_scenes/engines/";

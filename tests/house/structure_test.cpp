@@ -142,7 +142,7 @@ Problems loose_keys(const fs::path& root) {
     const std::string room = file.begin()->string(), name = file.generic_string();
     if (!is_cpp(file) || room == "records" || !kMaySee.contains(room)) return false;
     // The JSON for Blender's script and for a browser's page belongs to these engines.
-    return !name.starts_with("reference_scenes/engines/blender/blender_input") &&
+    return !name.starts_with("reference_scenes/engines/blender/blender.") &&
            name != "reference_scenes/engines/browser/engine_browser.cpp";
   });
 }

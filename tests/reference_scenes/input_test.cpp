@@ -13,7 +13,7 @@
 #include "core/text.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
-#include "reference_scenes/engines/blender/blender_input.hpp"
+#include "reference_scenes/engines/blender/blender.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/peak_bound.hpp"

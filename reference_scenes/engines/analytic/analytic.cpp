@@ -19,17 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Image to_image(const std::vector<Rgb>& radiance, const Film& film) {
-  Image image(film.width, film.height);
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    float* const pixel = image.values().data() + 3 * i;
-    pixel[0] = float(radiance[i].r);
-    pixel[1] = float(radiance[i].g);
-    pixel[2] = float(radiance[i].b);
-  }
-  return image;
-}
-
 class AnalyticSession final : public SimpleSession {
  public:
   AnalyticSession(const EngineStatus& status, const ReferenceOptions& options)
@@ -61,7 +50,7 @@ class AnalyticSession final : public SimpleSession {
                                  kAnalyticInfo.title, options_.time_limit.count());
       return result;
     }
-    result.image = to_image(picture, scene.film);
+    result.image = truth::as_picture(picture, scene.film);
     result.record.shading = "analytic";
     result.record.method = fmt::format(
         "textbook formulas in {}, one ray per pixel centre, none of the renderer's kernels",

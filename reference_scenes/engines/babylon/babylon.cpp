@@ -9,11 +9,7 @@ namespace lobelia {
 namespace {
 
 constexpr EngineVariant kBabylonVariants[] = {
-    {.name = "babylon",
-     .title = "Babylon.js native",
-     .shading = Shading::kNative,
-     .floor = kFloat32PointFloor},
-};
+    {"babylon", "Babylon.js native", false, Shading::kNative, kFloat32PointFloor}};
 
 /// (N.H)^n, without a coefficient.
 std::optional<OwnHighlight> babylon_highlight(const Highlight& highlight) {

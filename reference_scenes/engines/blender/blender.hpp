@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/persistent_session.hpp"
 
 namespace lobelia {
 
@@ -51,5 +54,11 @@ std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);
 /// Writes Blender's input for `scene` into `directory`, which exists.
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const std::filesystem::path& directory);
+
+/// A scene written down for render_scenes.py: numbers and enumerations. Nothing that a user typed into the scene file (ids,
+/// paths) gets in, so none of it can become code. Its text is one entry of the job's "scenes". `scene` is in engine units
+/// (preparation.hpp). `native` calls for highlights that Cycles' own closure can shade. Throws Error(kEngine) for what Blender
+/// cannot render.
+SceneInput blender_input(const Scene& scene, const std::string& name, bool native = false);
 
 }  // namespace lobelia

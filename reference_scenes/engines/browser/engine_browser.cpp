@@ -14,7 +14,6 @@
 #include <stdexcept>
 
 #include "reference_scenes/engines/programs/scene_program.hpp"
-#include "reference_scenes/engines/programs/sphere_pixels.hpp"
 
 namespace lobelia {
 namespace {

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "reference_scenes/engines/programs/scene_program.hpp"
-#include "reference_scenes/engines/programs/sphere_pixels.hpp"
 
 namespace lobelia {
 namespace {

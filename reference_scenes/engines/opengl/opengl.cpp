@@ -6,11 +6,7 @@ namespace lobelia {
 namespace {
 
 constexpr EngineVariant kOpenglVariants[] = {
-    {.name = "opengl",
-     .title = "OpenGL native",
-     .shading = Shading::kNative,
-     .floor = kFloat32PointFloor},
-};
+    {"opengl", "OpenGL native", false, Shading::kNative, kFloat32PointFloor}};
 
 constexpr double kMostOpenglExponent = 128;   // GL_SHININESS
 constexpr std::size_t kMostOpenglLights = 8;  // that every driver has

@@ -17,8 +17,9 @@
 #include "core/process.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
-#include "reference_scenes/engine_content.hpp"
+#include "reference_scenes/content.hpp"
 #include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/engines/outside/outside_reader.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "renderer/plan/plan.hpp"
 
@@ -128,7 +129,7 @@ class OutsideSession final : public SimpleSession {
  private:
   ReferenceResult run(const Scene& scene, const AxisValues& axes, std::size_t scenes);
   ReferenceResult read(const Scene& scene, const AxisValues& axes) const;
-  ReferenceResult finished(const Scene& scene, Failure failure) const;
+  ReferenceResult finished(const Scene& scene, const Failure& failure) const;
 
   const Outside& engine_;
   const EngineStatus& status_;
@@ -328,12 +329,8 @@ std::unique_ptr<SimpleSession> Outside::open_simple(const ReferenceOptions& opti
   return std::make_unique<OutsideSession>(*this, status(), options);
 }
 
-ReferenceResult OutsideSession::finished(const Scene& scene, Failure failure) const {
-  ReferenceResult result;
-  result.begun = std::chrono::steady_clock::now();
-  result.error = std::move(failure.message);
-  result.failure = failure.kind;
-  result.record = reference_record(engine_.info(), status_, scene);
+ReferenceResult OutsideSession::finished(const Scene& scene, const Failure& failure) const {
+  ReferenceResult result = failed_result(engine_.info(), status_, scene, failure);
   result.record.shading = "outside";
   result.record.passes = 1;
   return result;
@@ -379,7 +376,7 @@ ReferenceResult OutsideSession::run(const Scene& scene, const AxisValues& axes,
       failure.kind == FailureClass::kNoOutput && !words.empty())
     failure.message += ": " + words;
   remove_in_temporary_directory(home);
-  ReferenceResult result = finished(scene, std::move(failure));
+  ReferenceResult result = finished(scene, failure);
   result.begun = begun;
   result.image = std::move(image);
   result.log = log.text();

@@ -12,7 +12,6 @@
 #include "core/leave.hpp"
 #include "records/outside_engine.hpp"
 #include "reference_scenes/engine.hpp"
-#include "reference_scenes/engines/outside/command_text.hpp"
 
 namespace lobelia {
 

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "records/outside_engine.hpp"
 #include "renderer/scene/xml_format.hpp"
@@ -23,5 +27,16 @@ std::optional<records::OutsideEngine> read_outside_engine(XmlSource& source, pug
 
 /// A file whose root is an <engine>. Throws Error(kInput) with all errors, each "file:line:column: ...".
 records::OutsideEngine read_engine_file(const std::filesystem::path& path);
+
+// The text of an outside engine's command.
+
+/// The text with each {name} replaced by `value_of(name)`; {{ is a brace. Throws std::runtime_error for a brace without its
+/// other, and whatever `value_of` throws.
+std::string filled_in(std::string_view text,
+                      const std::function<std::string(std::string_view name)>& value_of);
+
+/// Arguments out of a line: blanks divide them, quotation marks of both kinds keep blanks. Throws std::runtime_error for a
+/// mark that is not closed, or what only a shell would understand, such as a lone '|'.
+std::vector<std::string> arguments_of(std::string_view line);
 
 }  // namespace lobelia

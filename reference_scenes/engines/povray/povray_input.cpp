@@ -9,7 +9,9 @@
 
 #include "core/files.hpp"
 #include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
 #include "reference_scenes/preparation.hpp"
+#include "reference_scenes/replicates.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/pixel_ray.hpp"
@@ -293,5 +295,28 @@ std::vector<std::string> povray_home(const std::filesystem::path& home,
   environment.push_back(fmt::format("POVINI={}", (home / "povray.ini").string()));
   return environment;
 }
+
+namespace {
+
+std::string why_not_povray_scene(const Scene& scene) {
+  if (std::string why = why_not_so_many_spheres(scene); !why.empty()) return why;
+  if (std::string why = why_not_comparable(scene); !why.empty()) return why;
+  if (needs_replicates(scene))
+    return "its picture is the average of many of POV-Ray's: it has a light with a size, a lens or several samples "
+           "per pixel ('lobelia reference --engine povray --keep-input DIR' writes them)";
+  return why_not_in_povray(scene, {});
+}
+
+}  // namespace
+
+constinit const SceneFormat kPovrayFormat{
+    "povray",
+    "POV-Ray",
+    "pass0.pov",
+    "a directory of .pov, .ini and .inc files; 'sh povray.sh' renders them. Models that POV-Ray lacks take a pass "
+    "for each light",
+    why_not_povray_scene,
+    [](const Scene& scene) { return povray_files(scene); },
+};
 
 }  // namespace lobelia

@@ -1,18 +1,43 @@
-// An engine that is one of our small programs around an engine's library (camera_scene.hpp, scene_program.hpp), and shades by
-// the engine's own highlight or not at all.
+// Scenes for small programs that shade by an engine's own highlight: words and numbers, a line for each thing.
+//
+//   scene NAME                                      of its picture, NAME-0.pfm
+//   seconds S                                       after which the program has to give up
+//   film WIDTH HEIGHT                               pixels
+//   window LEFT RIGHT BOTTOM TOP                    of the film, at distance 1
+//   light directional X Y Z R G B                   unit vector to the light, irradiance
+//   light point X Y Z R G B                         position, intensity
+//   material KIND EXPONENT STRENGTH DR DG DB        diffuse albedo over pi
+//   sphere X Y Z RADIUS MATERIAL
+//   plane X Y Z NX NY NZ MATERIAL
+//   end
+//
+// All places are in the camera's frame: it is in the origin, x is to the right, y upwards and z away from it. A material's
+// kind is the engine's name for a highlight, and STRENGTH the factor in front of it that the engine does not have itself.
+// Nothing that a user typed gets in.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "reference_scenes/camera_scene.hpp"
 #include "reference_scenes/engine_program.hpp"
 
 namespace lobelia {
 
-/// What is different between them.
+/// A material's highlight as an engine has it.
+struct OwnHighlight {
+  std::string_view kind = "none";
+  double strength = 0;
+};
+
+/// For programs that shade single points, without shadows: why not, as a sentence.
+std::string why_not_one_sphere(const Scene& scene);
+bool has_point_lights(const Scene& scene);
+
+/// An engine that is one of our small programs around an engine's library (scene_program.hpp), and shades by the engine's own
+/// highlight or not at all: what is different between them.
 struct NativeEngine {
   EngineInfo info;
   EngineProbe probe;

@@ -1,4 +1,4 @@
-// engine_sunflow: renders by Sunflow's library. Takes scenes as scene_program.cpp does, in the form of camera_scene.hpp.
+// engine_sunflow: renders by Sunflow's library. Takes scenes as scene_program.cpp does, in the form of native_engine.hpp.
 // Started from its source, so that nothing has to be compiled where there is no JDK.
 
 import java.io.BufferedReader;

@@ -12,11 +12,7 @@ constexpr EngineFloor kSunflowFloor{.of_peak = 16 * kFloat32Rounding,
                                     .of_quadratic = 3 * kFloat32Rounding,
                                     .of_cosine = 12 * kFloat32Rounding};
 constexpr EngineVariant kSunflowVariants[] = {
-    {.name = "sunflow",
-     .title = "Sunflow native",
-     .shading = Shading::kNative,
-     .floor = kSunflowFloor},
-};
+    {"sunflow", "Sunflow native", false, Shading::kNative, kSunflowFloor}};
 
 std::optional<OwnHighlight> sunflow_highlight(const Highlight& highlight) {
   if (info(highlight.model).name != "modified_phong" || info(highlight.lobe).name != "cosine")

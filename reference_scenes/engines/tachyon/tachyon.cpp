@@ -7,11 +7,7 @@ namespace {
 /// Double, in pictures of float32. Tachyon takes the light away below N.L = 1/512.
 constexpr EngineFloor kTachyonFloor{.of_peak = 2 * kFloat32Rounding, .least_cosine = 1.0 / 512};
 constexpr EngineVariant kTachyonVariants[] = {
-    {.name = "tachyon",
-     .title = "Tachyon native",
-     .shading = Shading::kNative,
-     .floor = kTachyonFloor},
-};
+    {"tachyon", "Tachyon native", false, Shading::kNative, kTachyonFloor}};
 
 /// None of Tachyon's highlights has a coefficient, nor a cosine.
 std::optional<OwnHighlight> tachyon_highlight(const Highlight& highlight) {

@@ -8,11 +8,7 @@ namespace lobelia {
 namespace {
 
 constexpr EngineVariant kThreeVariants[] = {
-    {.name = "three",
-     .title = "three.js native",
-     .shading = Shading::kNative,
-     .floor = kFloat32PointFloor},
-};
+    {"three", "three.js native", false, Shading::kNative, kFloat32PointFloor}};
 
 std::optional<OwnHighlight> three_highlight(const Highlight& highlight) {
   if (info(highlight.model).name != "blinn_phong_heightfield" ||

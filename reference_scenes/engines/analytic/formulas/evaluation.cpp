@@ -108,4 +108,12 @@ std::vector<Rgb> evaluate(const Scene& scene, Digits digits, const std::function
                                   : evaluate_in<double>(scene, stop);
 }
 
+Image as_picture(const std::vector<Rgb>& radiance, const Film& film) {
+  Image image(film.width, film.height);
+  float* value = image.values().data();
+  for (const Rgb& c : radiance)
+    for (const double component : {c.r, c.g, c.b}) *value++ = float(component);
+  return image;
+}
+
 }  // namespace lobelia::truth

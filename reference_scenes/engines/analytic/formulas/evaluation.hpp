@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image.hpp"
 #include "core/pixel_flags.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -23,6 +24,9 @@ std::string why_not_evaluated(const Scene& scene);
 /// sentence of why_not_evaluated().
 std::vector<Rgb> evaluate(const Scene& scene, Digits digits,
                           const std::function<bool()>& stop = {});
+
+/// The radiance of evaluate() as a picture, rounded to float32.
+Image as_picture(const std::vector<Rgb>& radiance, const Film& film);
 
 /// By pixel in reading order, 1 where the rays through its centre and through its eight neighbours' do not all see the same
 /// surfaces and checker squares, lit by the same lamps, along the whole chain of mirrors. Only there may two correct programs
