@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/picture_truth.hpp"
 #include "compare/display_light.hpp"
 #include "compare/metrics/ciede2000.hpp"
 #include "compare/metrics/metric.hpp"

@@ -1,4 +1,4 @@
-#include "accuracy/picture_truth.hpp"
+#include "accuracy/accuracy.hpp"
 
 #include <fmt/format.h>
 
@@ -21,12 +21,7 @@ Image evaluated(const Scene& scene) {
   const std::vector<Rgb> values =
       truth::evaluate(scene, truth::Digits::kDouble, [] { return interrupted(); });
   throw_if_interrupted();
-  Image image(scene.film.width, scene.film.height);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    float* pixel = image.values().data() + 3 * i;
-    pixel[0] = float(values[i].r), pixel[1] = float(values[i].g), pixel[2] = float(values[i].b);
-  }
-  return image;
+  return truth::as_picture(values, scene.film);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "core/error_time_chart.hpp"

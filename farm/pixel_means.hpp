@@ -3,7 +3,7 @@
 
 #include "compare/profile/profile.hpp"
 #include "core/image.hpp"
-#include "renderer/filter_nodes.hpp"
+#include "renderer/filter.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/reflector.hpp"
 

@@ -10,7 +10,7 @@
 
 namespace lobelia {
 
-/// A separable filter: index in the catalogue (renderer/filters/catalogue.hpp) and half its width.
+/// A separable filter: index in the catalogue (renderer/filters.hpp) and half its width.
 struct Filter {
   std::uint8_t index = 0;  ///< 0 is the box
   double radius = 0.5;     ///< pixels, > 0; the box of radius 0.5 is the pixel itself
@@ -65,5 +65,15 @@ class FilterSampler {
   double negative_weight_ = 0;
   std::uint32_t negative_every_ = 0;  ///< every how many samples one is negative; 0: never
 };
+
+struct FilterNode {
+  double x, y;    ///< from the pixel's centre, pixels, y down
+  double weight;  ///< of the value there; below 0 where the filter is
+};
+
+/// Weights sum to 1. By Gauss's quadrature with the filter as its weight, along each axis: exact for polynomials of degree 5,
+/// or 7 if the filter's second moment is above 0.1 square pixels. A filter without such a rule gets that of Gauss and Legendre,
+/// 4 nodes in each quarter of its width.
+std::vector<FilterNode> filter_nodes(Filter filter);
 
 }  // namespace lobelia

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
 
 #include "core/numbers.hpp"
 #include "core/text.hpp"

@@ -1,7 +1,6 @@
 #include "renderer/precision.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -11,7 +11,6 @@
 #include "core/image_io_module.hpp"
 #include "core/text.hpp"
 #include "shaders/program_text.hpp"
-#include "shaders/run_parts.hpp"
 #include "shaders/runner_protocol.hpp"
 
 namespace lobelia {

@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "shaders/program_text.hpp"
-#include "shaders/run_parts.hpp"
 
 namespace lobelia {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "core/image.hpp"
 #include "renderer/highlight.hpp"
-#include "renderer/scene/ranges.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/xml_format.hpp"
 

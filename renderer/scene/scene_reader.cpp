@@ -1,4 +1,3 @@
-#include <cctype>
 
 #include "core/files.hpp"
 #include "core/shipped_files.hpp"

@@ -1,4 +1,4 @@
-#include "accuracy/picture_truth.hpp"
+#include "accuracy/accuracy.hpp"
 
 #include <gtest/gtest.h>
 

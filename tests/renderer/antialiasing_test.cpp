@@ -10,7 +10,7 @@
 #include "core/constants.hpp"
 #include "core/files.hpp"
 #include "lobelia_paths.hpp"
-#include "renderer/filters/catalogue.hpp"
+#include "renderer/filters.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render.hpp"

@@ -1,4 +1,4 @@
-#include "renderer/filter_nodes.hpp"
+#include "renderer/filter.hpp"
 
 #include <gtest/gtest.h>
 

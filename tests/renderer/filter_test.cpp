@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "renderer/filters/catalogue.hpp"
+#include "renderer/filters.hpp"
 
 namespace lobelia {
 namespace {

@@ -17,9 +17,13 @@
 #include "core/image.hpp"
 #include "core/parameter.hpp"
 #include "core/vec.hpp"
-#include "renderer/scene/ranges.hpp"
 
 namespace lobelia {
+
+// Bounds of the numbers in a scene.
+inline constexpr double kFar = 1e9;        ///< of every coordinate and length
+inline constexpr double kNear = 1e-9;      ///< the least size
+inline constexpr double kBrightest = 1e9;  ///< of every irradiance, intensity and radiance
 
 /// A light without a size. Every light turns into lamps for the reference engines, the formulas per pixel and the
 /// fused kernels.
