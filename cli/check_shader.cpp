@@ -7,7 +7,7 @@
 #include "core/standard_streams.hpp"
 #include "records/record.hpp"
 #include "studies/shader_check/arguments.hpp"
-#include "studies/shader_check/report.hpp"
+#include "studies/shader_check/check.hpp"
 
 namespace lobelia::cli {
 namespace {

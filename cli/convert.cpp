@@ -6,8 +6,6 @@
 #include "cli/output_files.hpp"
 #include "records/record.hpp"
 #include "renderer/ggx.hpp"
-#include "studies/convert/range.hpp"
-#include "studies/convert/report.hpp"
 
 namespace lobelia::cli {
 namespace {

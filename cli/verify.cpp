@@ -8,13 +8,12 @@
 #include "core/files.hpp"
 #include "farm/profile_scene.hpp"
 #include "records/record.hpp"
-#include "studies/agreement/report.hpp"
+#include "studies/agreement/agreement.hpp"
 #include "studies/highlights/table.hpp"
 #include "studies/paper/report.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "studies/profiles/profiles.hpp"
 #include "studies/stability/report.hpp"
-#include "studies/verdicts/report.hpp"
 #include "studies/verdicts/verdicts.hpp"
 
 namespace lobelia::cli {
@@ -220,7 +219,7 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
 }
 
 struct VerifyVerdictsArguments {
-  std::string json, plots, pictures;
+  std::string json, pictures;
   std::vector<std::string> noises;
   bool markdown = false;
   verdicts::Options measured;
@@ -235,17 +234,14 @@ ExitCode run_verify_verdicts(VerifyVerdictsArguments options) {
   options.measured.pictures = options.pictures;
   options.measured.programs = options.programs.given();
   OutputFiles().writes_report(options.json);
-  if (!options.plots.empty()) make_directories(options.plots);
   ProgressLine progress;
   records::VerifyVerdicts record = verdicts::measure(
       options.measured, [&](double done) { progress.show(done, "pairs with noise"); });
   progress.clear();
   record.command = command_line();
-  FilesTogether files;
-  if (!options.plots.empty()) verdicts::write_charts(options.plots, record);
   write_reports(
       options.markdown ? verdicts::report_markdown(record) : verdicts::report_text(record),
-      {{options.json, record_text(record)}}, files);
+      {{options.json, record_text(record)}});
   return record.outside == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
@@ -255,7 +251,15 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyVerdictsArguments>();
   OptionGroup group(*command);
   auto* json = add_json(group, options->json, "verify-verdicts");
-  group.add("--plots", options->plots, "DIR", "Write the curves as SVG files into DIR");
+  // Was removed, and hidden here says what to do.
+  command
+      ->add_option_function<std::string>("--plots",
+                                         [](const std::string&) {
+                                           throw Error(ExitCode::kUsage,
+                                                       "--plots was removed; the record of --json "
+                                                       "has the curves' values");
+                                         })
+      ->group("");
   group.add(
       "--pictures", options->pictures, "DIR",
       "Write the pairs into folders in DIR, for another judge: NOISE-SIZE-SAMPLES-PICTURES/b1, "
@@ -314,13 +318,12 @@ void add_verify_highlights(CLI::App& verify, ExitCode& exit_code) {
     options->limits.run([&] {
       OutputFiles().writes_report(options->json);
       ProgressLine progress;
-      const auto rows = highlights::measure_table(
+      records::VerifyHighlights record = highlights::measure_table(
           [&](double done) { progress.show(done, "highlights beside a light"); });
       progress.clear();
-      records::VerifyHighlights record = highlights::report_record(rows);
       record.command = command_line();
-      write_reports(highlights::table_text(rows), {{options->json, record_text(record)}});
-      exit_code = highlights::are_right(rows) ? ExitCode::kSuccess : ExitCode::kDiffers;
+      write_reports(highlights::table_text(record), {{options->json, record_text(record)}});
+      exit_code = record.wrong == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
     });
   });
 }

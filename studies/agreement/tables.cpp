@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "reference_scenes/replicates.hpp"
-#include "studies/agreement/report.hpp"
+#include "studies/agreement/agreement.hpp"
 
 namespace lobelia::agreement {
 namespace {

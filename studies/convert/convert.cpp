@@ -8,8 +8,7 @@
 
 #include "core/constants.hpp"
 #include "renderer/ggx.hpp"
-#include "studies/convert/errors.hpp"
-#include "studies/convert/rules.hpp"
+#include "studies/convert/curve.hpp"
 
 namespace lobelia::conversion {
 namespace {

@@ -1,6 +1,12 @@
 // The parameter with which one model looks most like another, and what rules of thumb make of it.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/svg_chart.hpp"
 #include "records/conversion.hpp"
 #include "studies/convert/curve.hpp"
 
@@ -24,5 +30,29 @@ struct Best {
 Best best_parameter(const Request& request, Measure measure);
 
 records::Conversion convert(const Request& request);
+
+// The best parameters over the whole range, and what rules of thumb make of it.
+
+/// Over exponents from 1 to 1024, or over roughness. `request.parameter` is not used.
+records::ConversionTable convert_range(const Request& request);
+
+std::string range_text(const records::ConversionTable& table);
+/// The best by the chosen measure and the rules.
+Chart range_chart(const records::ConversionTable& table);
+
+std::string conversion_text(const records::Conversion& conversion);
+Chart conversion_chart(const records::Conversion& conversion);
+
+struct Rule {
+  std::string_view name;     ///< "FBX2glTF"
+  std::string_view formula;  ///< "roughness = sqrt(2 / (n + 2))"
+  std::string_view source;
+  /// The parameter of the target from that of the source; none if the rule has no answer.
+  std::optional<double> (*convert)(double parameter);
+};
+
+/// From an exponent to GGX the rules themselves; back from GGX the same rules solved for n. From an exponent to an exponent
+/// the rules differ by whether the angle of the lobe does.
+std::span<const Rule> rules(ShadingModel from, ShadingModel to);
 
 }  // namespace lobelia::conversion

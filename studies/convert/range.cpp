@@ -1,4 +1,4 @@
-#include "studies/convert/range.hpp"
+#include "studies/convert/convert.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/constants.hpp"
-#include "studies/convert/rules.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::conversion {

@@ -1,4 +1,4 @@
-#include "studies/convert/report.hpp"
+#include "studies/convert/convert.hpp"
 
 #include <fmt/format.h>
 

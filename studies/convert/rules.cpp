@@ -1,4 +1,4 @@
-#include "studies/convert/rules.hpp"
+#include "studies/convert/convert.hpp"
 
 #include <algorithm>
 #include <cmath>

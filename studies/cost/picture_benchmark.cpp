@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/accuracy.hpp"
 #include "accuracy/lobe_candidates.hpp"
-#include "accuracy/picture_truth.hpp"
 #include "core/error.hpp"
 #include "core/half.hpp"
 #include "renderer/render.hpp"

@@ -84,68 +84,51 @@ constexpr Change kChanges[] = {{"5 % dimmer", 0.95, 0, 1},
 
 }  // namespace
 
-bool Row::is_right() const {
-  return std::ranges::count(differs, should_differ) == std::ssize(differs);
-}
-
-std::vector<Row> measure_table(const std::function<void(double)>& on_progress) {
-  std::vector<Row> rows;
+records::VerifyHighlights measure_table(const std::function<void(double)>& on_progress) {
+  records::VerifyHighlights measured;
   const double all = double(std::size(kScenes) * std::size(kLights));
   double done = 0;
   for (const MadeScene& scene : kScenes) {
-    const std::size_t first = rows.size();
-    for (const Change& change : kChanges) rows.push_back({scene.name, change.name, true, {}});
-    rows.push_back({scene.name, "in half floats", false, {}});
+    const std::size_t first = measured.changes.size();
+    for (const Change& change : kChanges)
+      measured.changes.push_back({scene.name, change.name, true, {}});
+    measured.changes.push_back({scene.name, "in half floats", false, {}});
     for (const double light : kLights) {
+      const auto add = [&](std::size_t i, const Image& a, const Image& b) {
+        records::ChangedHighlight& change = measured.changes[first + i];
+        const bool differs = differ(a, b), is_right = differs == change.should_differ;
+        change.lights.push_back({light, differs, is_right});
+        measured.wrong += !is_right;
+      };
       const Image reference = picture_of(scene, light, 1, 0);
       for (std::size_t i = 0; i < std::size(kChanges); ++i) {
         const Change& change = kChanges[i];
-        rows[first + i].differs.push_back(
-            differ(picture_of(scene, light, change.kept, change.moved),
-                   picture_of(scene, light, change.in_reference, 0)));
+        add(i, picture_of(scene, light, change.kept, change.moved),
+            picture_of(scene, light, change.in_reference, 0));
       }
-      rows.back().differs.push_back(differ(in_half_floats(reference), reference));
+      add(std::size(kChanges), in_half_floats(reference), reference);
       on_progress(++done / all);
     }
   }
-  return rows;
+  return measured;
 }
 
-std::string table_text(const std::vector<Row>& rows) {
+std::string table_text(const records::VerifyHighlights& measured) {
   studies::Table table;
   table.columns = {{"highlight", -22, "{}", 2}, {"change", -18}};
   for (const double light : kLights) table.columns.push_back({fmt::format("{}", light), 9});
-  std::size_t wrong = 0;
-  for (const Row& row : rows) {
-    std::vector<studies::Cell> cells{row.scene, row.change};
-    for (const bool differs : row.differs) {
-      wrong += differs != row.should_differ;
-      cells.push_back(differs == row.should_differ ? (differs ? "found" : "pass")
-                      : differs                    ? "FALSE"
-                                                   : "MISSED");
-    }
+  for (const records::ChangedHighlight& change : measured.changes) {
+    std::vector<studies::Cell> cells{change.highlight, change.change};
+    for (const records::LightBeside& light : change.lights)
+      cells.push_back(light.is_right  ? (light.differs ? "found" : "pass")
+                      : light.differs ? "FALSE"
+                                      : "MISSED");
     table.rows.push_back(std::move(cells));
   }
   return "The highlight beside a light of so many times its peak:\n\n" +
          studies::table_text(std::move(table)) +
-         (wrong == 0 ? "\nNothing is missed, and rounding is no difference.\n"
-                     : fmt::format("\n{} cells are wrong.\n", wrong));
-}
-
-bool are_right(const std::vector<Row>& rows) { return std::ranges::all_of(rows, &Row::is_right); }
-
-records::VerifyHighlights report_record(const std::vector<Row>& rows) {
-  records::VerifyHighlights record;
-  for (const Row& row : rows) {
-    records::ChangedHighlight& change = record.changes.emplace_back();
-    change = {row.scene, row.change, row.should_differ, {}};
-    for (std::size_t k = 0; k < row.differs.size(); ++k) {
-      const bool is_right = row.differs[k] == row.should_differ;
-      change.lights.push_back({kLights[k], row.differs[k], is_right});
-      record.wrong += !is_right;
-    }
-  }
-  return record;
+         (measured.wrong == 0 ? "\nNothing is missed, and rounding is no difference.\n"
+                              : fmt::format("\n{} cells are wrong.\n", measured.wrong));
 }
 
 }  // namespace lobelia::highlights

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "core/constants.hpp"
 #include "core/half.hpp"

@@ -60,6 +60,15 @@ double median_of(std::vector<double> values) {
 
 constexpr std::array kFigures = {"lobe", "peak", "place", "centroid", "half-width", "energy"};
 
+/// A cell for each figure; "-" where the row has none.
+template <class Text>
+void add_cells(std::vector<studies::Cell>& cells, const Row& row, const Text& text_of) {
+  for (const char* name : kFigures) {
+    const auto found = row.figures.find(name);
+    cells.push_back(found == row.figures.end() ? std::string("-") : text_of(found->second));
+  }
+}
+
 }  // namespace
 
 void Tally::add(double found, double truth, double error, double unit) {
@@ -127,12 +136,7 @@ std::string report_text(const std::vector<Row>& rows, bool markdown) {
   std::string missed;
   for (const Row& row : rows) {
     std::vector<studies::Cell> cells{row.kind, row.pictures};
-    for (const char* name : kFigures) {
-      const auto found = row.figures.find(name);
-      cells.push_back(found == row.figures.end()
-                          ? std::string("-")
-                          : fmt::format("{:.1f} %", 100 * found->second.share()));
-    }
+    add_cells(cells, row, [](const Tally& t) { return fmt::format("{:.1f} %", 100 * t.share()); });
     cells.push_back(fmt::format("{:.1f} %", 100 * row.share()));
     cells.push_back(fmt::format("{:.2f}", row.median_distance()));
     table.rows.push_back(std::move(cells));
@@ -149,13 +153,9 @@ std::string report_text(const std::vector<Row>& rows, bool markdown) {
   for (const char* name : kFigures) sizes.columns.push_back({name, 1, "{}", 2});
   for (const Row& row : rows) {
     std::vector<studies::Cell> cells{row.kind};
-    for (const char* name : kFigures) {
-      const auto found = row.figures.find(name);
-      cells.push_back(found == row.figures.end()
-                          ? std::string("-")
-                          : fmt::format("{:.1g} ({:.2g})", median_of(found->second.errors),
-                                        found->second.worst()));
-    }
+    add_cells(cells, row, [](const Tally& t) {
+      return fmt::format("{:.1g} ({:.2g})", median_of(t.errors), t.worst());
+    });
     sizes.rows.push_back(std::move(cells));
   }
   sizes.remarks = {"Errors of places and centroids are pixels, the others shares of the value."};

@@ -7,7 +7,6 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <tuple>
 

@@ -1,10 +1,9 @@
-#include "studies/search/proof.hpp"
+#include "studies/search/minimax.hpp"
 
 #include <algorithm>
 #include <array>
 #include <boost/numeric/interval.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace lobelia::search {

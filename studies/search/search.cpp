@@ -13,8 +13,6 @@
 #include "core/text.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/minimax.hpp"
-#include "studies/search/proof.hpp"
-#include "studies/search/timing.hpp"
 
 namespace lobelia::search {
 namespace {

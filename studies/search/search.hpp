@@ -3,10 +3,13 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/timing.hpp"
 #include "records/lobe_search.hpp"
+#include "renderer/highlight.hpp"
 #include "studies/search/shape.hpp"
 
 namespace lobelia::search {
@@ -51,5 +54,11 @@ std::string search_text(const records::LobeSearch& found, const Request& request
                         bool certificates);
 /// Whether the record has what was asked for.
 bool is_met(const records::LobeSearch& found, const Request& request);
+
+/// The lobe at `count` values of s, a multiple of 64, aligned for SIMD.
+void evaluate(const Lobe& lobe, double n, std::size_t count, const float* s, float* value);
+
+/// Seconds for one value of each lobe and of one of the catalogue, in interleaved rounds, for numbers that the cache holds.
+std::vector<Times> times_of(std::span<const Lobe> lobes, const LobeId& last);
 
 }  // namespace lobelia::search

@@ -1,4 +1,4 @@
-#include "studies/search/timing.hpp"
+#include "studies/search/search.hpp"
 
 #include <oneapi/tbb/cache_aligned_allocator.h>
 

@@ -173,19 +173,14 @@ void add_explanation(const Request& request, const Plan& plan, Judge& judge, boo
     observed.values.push_back(judge.theirs(i));
     is_zero = is_zero && judge.theirs(i) == 0;
   }
-  records::ShaderExplanation& found = record.explanation.emplace();
-  if (is_zero || record.oddities.nan + record.oddities.infinite == record.oddities.calls) {
-    found.mistakes = {is_zero ? "zero" : "no-number"};
-    found.sentence = is_zero ? "it is 0 in every direction" : "it is no finite number anywhere";
-    found.complete = true;
+  if (!is_zero && record.oddities.nan + record.oddities.infinite < record.oddities.calls) {
+    record.explanation = explain(request.highlight, observed, of_roughness);
     return;
   }
-  const Explanation explanation = explain(request.highlight, observed, of_roughness);
-  found.mistakes = explanation.mistakes;
-  found.sentence = explanation.sentence;
-  found.complete = explanation.is_complete;
-  found.left_of_peak = explanation.left_of_peak;
-  for (const FactorAt& at : explanation.factors) found.factors.push_back({at.exponent, at.factor});
+  records::ShaderExplanation& found = record.explanation.emplace();
+  found.mistakes = {is_zero ? "zero" : "no-number"};
+  found.sentence = is_zero ? "it is 0 in every direction" : "it is no finite number anywhere";
+  found.complete = true;
 }
 
 void add_pictures(const Plan& plan, Judge& judge, Check& check) {

@@ -46,4 +46,9 @@ struct Check {
 /// writes nothing, and Error(kEngine) if nothing runs shaders here.
 Check check_shader(const Request& request);
 
+std::string report_text(const records::ShaderCheck& record);
+
+/// One HTML file, without a script and with its pictures in it.
+std::string report_page(const Check& check);
+
 }  // namespace lobelia::shader_check

@@ -81,7 +81,7 @@ struct Candidate {
   bool has_free_coefficient = false;
   const OutputMistake* output = nullptr;
   Left left;
-  std::vector<FactorAt> factors;
+  std::vector<records::ShaderFactor> factors;
 
   double score() const {
     return double(shape.size()) + (coefficient ? 1 : 0) +
@@ -168,7 +168,7 @@ class Search {
   template <class Value>
   double distance(const Candidate& candidate, Value value, bool of_lobe_exponent) const {
     double largest = 0;
-    for (const FactorAt& at : candidate.factors) {
+    for (const records::ShaderFactor& at : candidate.factors) {
       const double n = of_lobe_exponent
                            ? formula_of(highlight_, at.exponent, candidate.shape).exponent
                            : at.exponent;
@@ -245,9 +245,10 @@ std::string times(double factor) {
 }
 
 /// "3.14 times too bright", or from where to where.
-std::string factor_text(const std::vector<FactorAt>& factors) {
+std::string factor_text(const std::vector<records::ShaderFactor>& factors) {
   if (factors.empty()) return "";
-  const auto [least, most] = std::ranges::minmax_element(factors, {}, &FactorAt::factor);
+  const auto [least, most] =
+      std::ranges::minmax_element(factors, {}, &records::ShaderFactor::factor);
   if (most->factor < least->factor * 1.005) return times(factors.back().factor);
   return fmt::format("{} at n = {:g} and {} at n = {:g}", times(factors.front().factor),
                      factors.front().exponent, times(factors.back().factor),
@@ -269,11 +270,12 @@ std::string coefficient_words(const Highlight& highlight, const CoefficientMista
 double textbook_rounding(double exponent) { return std::min(2e-5 + 6e-7 * exponent, 0.02); }
 double allowed_error(double exponent) { return std::min(textbook_rounding(exponent), 1e-3); }
 
-Explanation explain(const Highlight& highlight, const Observed& observed, bool of_roughness) {
+records::ShaderExplanation explain(const Highlight& highlight, const Observed& observed,
+                                   bool of_roughness) {
   Search search(highlight, observed, of_roughness);
   const Candidate& best = search.best();
-  Explanation explanation;
-  explanation.is_complete = std::isfinite(best.score()) && !best.has_free_coefficient;
+  records::ShaderExplanation explanation;
+  explanation.complete = std::isfinite(best.score()) && !best.has_free_coefficient;
   explanation.left_of_peak = best.left.most_of_peak;
   explanation.factors = best.factors;
   std::string words;

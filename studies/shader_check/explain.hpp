@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "records/shader_check.hpp"
 #include "studies/shader_check/points.hpp"
 
 namespace lobelia::shader_check {
@@ -14,18 +15,6 @@ struct Observed {
   std::vector<double> values;
 };
 
-struct FactorAt {
-  double exponent = 1, factor = 1;  ///< the shader's coefficient over the model's
-};
-
-struct Explanation {
-  std::vector<std::string> mistakes;  ///< their ids, such as "pi-missing"
-  std::string sentence;
-  bool is_complete = false;  ///< nothing is left but rounding
-  double left_of_peak = 0;   ///< the largest difference left, but for the worst 2 % of the points
-  std::vector<FactorAt> factors;  ///< where a coefficient can be told
-};
-
 /// What float32 leaves of a power of a cosine as in textbooks, relative to the peak; an explanation may leave as much.
 double textbook_rounding(double exponent);
 /// The largest error of a shader that passes, relative to the peak: the same, but no more than anybody could see.
@@ -33,6 +22,7 @@ double allowed_error(double exponent);
 
 /// Tries the mistakes of mistakes.hpp one by one, then in pairs, each with every coefficient. The simplest that leaves
 /// rounding alone is the explanation; without one it is the nearest.
-Explanation explain(const Highlight& highlight, const Observed& observed, bool of_roughness);
+records::ShaderExplanation explain(const Highlight& highlight, const Observed& observed,
+                                   bool of_roughness);
 
 }  // namespace lobelia::shader_check

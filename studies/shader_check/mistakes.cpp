@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/colour.hpp"
 #include "core/half.hpp"
 #include "renderer/models/smith.hpp"
 
@@ -173,22 +174,16 @@ std::vector<CoefficientMistake> make_coefficients() {
   return all;
 }
 
-double srgb_encoded(double v) {
-  const double c = std::clamp(v, 0.0, 1.0);
-  return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-}
-double srgb_encoded_unclamped(double v) {
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
+double clamped_srgb(double v) { return srgb_encoded(std::clamp(v, 0.0, 1.0)); }
 
 constexpr OutputMistake kOutputs[] = {
     {"clamped", "the result is clamped to 1", [](double v) { return std::min(v, 1.0); }},
+    {"srgb", "the result is encoded as sRGB, where light is expected", clamped_srgb},
     {"srgb", "the result is encoded as sRGB, where light is expected", srgb_encoded},
-    {"srgb", "the result is encoded as sRGB, where light is expected", srgb_encoded_unclamped},
+    {"srgb-twice", "the result is encoded as sRGB twice",
+     [](double v) { return clamped_srgb(clamped_srgb(v)); }},
     {"srgb-twice", "the result is encoded as sRGB twice",
      [](double v) { return srgb_encoded(srgb_encoded(v)); }},
-    {"srgb-twice", "the result is encoded as sRGB twice",
-     [](double v) { return srgb_encoded_unclamped(srgb_encoded_unclamped(v)); }},
     {"srgb-decoded", "the result is decoded as sRGB, as if it were no light",
      [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }},
     {"gamma", "the result has a gamma of 1 / 2.2",

@@ -11,7 +11,7 @@
 #include "core/image_values.hpp"
 #include "core/svg_chart.hpp"
 #include "core/version.hpp"
-#include "studies/shader_check/report.hpp"
+#include "studies/shader_check/check.hpp"
 
 namespace lobelia {
 namespace embedded {

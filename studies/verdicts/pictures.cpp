@@ -1,4 +1,4 @@
-#include "studies/verdicts/pictures.hpp"
+#include "studies/verdicts/verdicts.hpp"
 
 #include <algorithm>
 #include <cmath>

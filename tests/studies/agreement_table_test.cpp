@@ -12,7 +12,7 @@
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/highlight.hpp"
-#include "studies/agreement/report.hpp"
+#include "studies/agreement/agreement.hpp"
 #include "tests/cli/run_lobelia.hpp"
 
 namespace lobelia::agreement {

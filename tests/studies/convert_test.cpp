@@ -10,10 +10,7 @@
 #include "core/constants.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/ggx.hpp"
-#include "studies/convert/errors.hpp"
-#include "studies/convert/range.hpp"
-#include "studies/convert/report.hpp"
-#include "studies/convert/rules.hpp"
+#include "studies/convert/curve.hpp"
 #include "tests/more_samples.hpp"
 
 namespace lobelia::conversion {

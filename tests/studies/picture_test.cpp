@@ -3,8 +3,8 @@
 
 #include <set>
 
+#include "accuracy/accuracy.hpp"
 #include "accuracy/lobe_candidates.hpp"
-#include "accuracy/picture_truth.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "studies/cost/benchmarks.hpp"

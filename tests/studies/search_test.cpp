@@ -10,9 +10,7 @@
 #include "core/error.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/minimax.hpp"
-#include "studies/search/proof.hpp"
 #include "studies/search/search.hpp"
-#include "studies/search/timing.hpp"
 #include "tests/more_samples.hpp"
 
 namespace lobelia::search {

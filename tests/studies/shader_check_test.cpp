@@ -13,7 +13,6 @@
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/mistakes.hpp"
-#include "studies/shader_check/report.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/studies/planted_mistakes.hpp"
@@ -228,7 +227,7 @@ TEST(Explain, FindsEachMistakeOfItsCatalogueInEveryModel) {
       if (is_left_out(number++)) continue;
       const auto explanation =
           shader_check::explain(highlight, observed_of(highlight, mistake), mistake.of_roughness);
-      EXPECT_TRUE(explanation.is_complete) << info(model).name << ": " << mistake.words;
+      EXPECT_TRUE(explanation.complete) << info(model).name << ": " << mistake.words;
       // Or another that does the same, such as 2 / alpha^2 and n + 2.
       EXPECT_EQ(explanation.mistakes.size(), 1u)
           << info(model).name << ": " << mistake.words << ": " << explanation.sentence;
