@@ -1,26 +1,15 @@
 // lobelia compare with folders, second references and its reports, as a user runs it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
 #include <pugixml.hpp>
-#include <random>
-#include <set>
 
 #include "core/image_io.hpp"
 #include "core/text.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-namespace fs = std::filesystem;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 class CompareFolders : public ComparePictures {
  protected:

@@ -1,22 +1,15 @@
 // `lobelia compare` on pictures with layers, alpha and channels of other names.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <algorithm>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <set>
 #include "core/image_io.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 TEST_F(ComparePictures, OneLayerIsComparedByItsName) {
   flat("a.exr", 1,

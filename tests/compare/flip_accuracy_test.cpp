@@ -1,19 +1,13 @@
 // FLIP's errors against the formulas of the paper in float64, on pictures where float32 or a careless order of operations
 // shows: powers of almost nothing and roots of differences that cancel.
-#include <gtest/gtest.h>
 #include <hwy/targets.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <string>
-#include <vector>
 
 #include "compare/display_light.hpp"
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_kernels.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,10 +1,4 @@
 // The JSON Schemas of comparisons and profiles against the records that the program writes.
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <limits>
-#include <set>
-
 #include "compare/compare.hpp"
 #include "compare/layers.hpp"
 #include "compare/metrics/catalogue.hpp"
@@ -17,6 +11,7 @@
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/json_schema.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

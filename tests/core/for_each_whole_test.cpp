@@ -1,15 +1,13 @@
 #include "core/for_each_whole.hpp"
 
-#include <gtest/gtest.h>
+#include "tests/test.hpp"
+
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace lobelia {
 namespace {

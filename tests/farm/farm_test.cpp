@@ -1,6 +1,4 @@
-#include <gmock/gmock.h>
 
-#include <set>
 
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
@@ -8,12 +6,11 @@
 #include "farm_fixture.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// An empty $PATH, for as long as it lives.
 class WithoutPrograms {

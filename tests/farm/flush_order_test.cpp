@@ -1,7 +1,7 @@
-#include <gmock/gmock.h>
 
 #include "farm_fixture.hpp"
 #include "tests/core/unflushed_names.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

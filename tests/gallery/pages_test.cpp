@@ -1,7 +1,4 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <fstream>
 
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
@@ -10,13 +7,10 @@
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 TEST(GalleryPages, HaveAPageForEveryCellAndNoDeadLink) {
   const FakeFarm farm;

@@ -1,21 +1,13 @@
 // Reading the source tree, and running programs in folders made for that.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "lobelia_paths.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 

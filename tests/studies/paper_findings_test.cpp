@@ -1,13 +1,8 @@
 // Claims of the paper: every figure that docs/errata.md leans on. Values come from an independent
 // calculation or a closed form; tolerances are about half a unit of what is printed. And what is made of the
 // measured claims: the errata, the record, the table, the plots, the command.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <pugixml.hpp>
 #include <regex>
-#include <set>
 #include <stdexcept>
 
 #include "lobelia_paths.hpp"
@@ -15,11 +10,10 @@
 #include "studies/paper/report.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::paper {
 namespace {
-
-using testing::HasSubstr;
 
 /// Measured once for all tests.
 const std::vector<Claim>& measured_claims() {

@@ -1,7 +1,4 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <set>
 
 #include "accuracy/lobe_candidates.hpp"
 #include "accuracy/picture_truth.hpp"
@@ -10,11 +7,10 @@
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/scenes.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {
-
-using ::testing::HasSubstr;
 
 const Variant& find(const Table& table, const std::string& name) {
   for (const Variant& variant : table.variants)

@@ -1,11 +1,7 @@
 // `lobelia search`: its optima by a second solver, its proofs by 50 digits on grids, its certificates by themselves.
-#include <gmock/gmock.h>
 #include <oneapi/tbb/cache_aligned_allocator.h>
 
-#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cmath>
-#include <random>
 
 #include "core/error.hpp"
 #include "renderer/highlight.hpp"
@@ -14,6 +10,7 @@
 #include "studies/search/search.hpp"
 #include "studies/search/timing.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::search {
 namespace {

@@ -1,12 +1,6 @@
 // Lights that lie on a surface. Scenes are random: any plane, body and lamp, at any scale and place. The surface
 // is black, so that it shows in a picture by what it hides alone.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
 
 #include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
@@ -15,6 +9,7 @@
 #include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
