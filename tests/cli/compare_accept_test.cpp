@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <filesystem>
 #include <iterator>
-#include <limits>
 
 #include "core/replacement.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
@@ -13,10 +11,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-namespace fs = std::filesystem;
 
 class CompareAccept : public ComparePictures {
  protected:

@@ -1,10 +1,6 @@
 // Layers that are no colours: how their type is told, and what is measured of each.
 #include "compare/layer_types.hpp"
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "compare/layer_sensitivity.hpp"
 #include "tests/compare/layer_files.hpp"
 #include "tests/compare/pictures.hpp"
@@ -13,7 +9,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 

@@ -10,8 +10,6 @@
 namespace house {
 namespace {
 
-using ::testing::HasSubstr;
-
 /// Text in place of text, in a file that is copied or in one that gets a line more.
 using Renames = std::vector<std::pair<std::string, std::string>>;
 

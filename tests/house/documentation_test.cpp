@@ -10,8 +10,6 @@
 namespace house {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using Problems = std::vector<std::string>;
 

@@ -9,8 +9,6 @@ namespace house {
 namespace {
 
 using ::testing::EndsWith;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 class GalleryScript : public ::testing::Test {
  protected:

@@ -8,9 +8,6 @@
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using ::testing::StartsWith;
 using Problems = std::vector<std::string>;
 
 /// The lines by which a file may pass the gate.

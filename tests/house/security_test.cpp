@@ -9,8 +9,6 @@
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
 
 /// "core/files.cpp: rename"

@@ -7,12 +7,6 @@
 namespace house {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-
 class Setup : public ::testing::Test {
  protected:
   Setup() {

@@ -9,9 +9,6 @@
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
 
 // ---- arrows between rooms

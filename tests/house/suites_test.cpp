@@ -10,9 +10,6 @@
 namespace house {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-
 struct LongTests {
   std::string program, tests, group, why;
 };

@@ -12,6 +12,12 @@
 namespace house {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
 
 inline const fs::path kRoot = LOBELIA_SOURCE_DIR;
 

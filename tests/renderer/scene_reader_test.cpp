@@ -1,6 +1,3 @@
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "lobelia_paths.hpp"
 #include "renderer/scene/scene_format.hpp"

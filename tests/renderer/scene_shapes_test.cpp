@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -6,8 +5,6 @@
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 std::string shape(const std::string& type, const std::string& body,
                   const std::string& material = "<ref id=\"m\"/>") {
