@@ -282,18 +282,6 @@ TEST(FlipAccuracy, IsAMillionthOnPicturesThatDifferInAFewPlaces) {
   }
 }
 
-TEST(FlipAccuracy, IsAMillionthAroundOnePixel) {
-  const Image flat = fixtures::flat(41, 33, 0.3f, 0.3f, 0.3f),
-              noise = fixtures::noise(41, 33, 8, 1);
-  for (const Image& a : {flat, noise})
-    for (const auto& [x, y] : {std::pair(0, 0), {20, 16}, {40, 32}, {20, 0}})
-      for (const float change : {0.5f, 1e-3f, 1e-6f, -0.2f}) {
-        Image b = a;
-        for (float& value : b.pixel(x, y)) value += change;
-        expect_accurate("one pixel, " + std::to_string(change), a, b);
-      }
-}
-
 TEST(FlipAccuracy, IsAMillionthOnEdges) {
   // Grey edges: colours must not differ where only the luminance does. The wide filter of blue and yellow reaches where
   // the narrow one of luminance has almost nothing.

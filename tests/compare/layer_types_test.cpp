@@ -108,25 +108,6 @@ TEST_F(Identifiers, AreCountedWhereAnyBitDiffers) {
   }
 }
 
-TEST_F(Identifiers, AreCountedAndNamedWhereTheyAreExchanged) {
-  std::vector<std::uint32_t> b(kPixels), a(kPixels);
-  std::size_t differ = 0;
-  std::mt19937 random(4);
-  for (std::size_t i = 0; i < kPixels; ++i) {
-    b[i] = 12 + std::uint32_t(random() % 3);
-    a[i] = b[i] == 12 ? 13 : b[i] == 13 ? 12 : b[i];
-    differ += a[i] != b[i];
-  }
-  for (const bool as_floats : {false, true}) {
-    const LayerComparison layer =
-        compare_channels({channel(a, as_floats)}, {channel(b, as_floats)});
-    EXPECT_EQ(value(layer, "identifier.pixels"), double(differ));
-    EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
-  }
-  EXPECT_THAT(compare_channels({channel(a, false)}, {channel(b, false)}).comparison->finding,
-              HasSubstr("a has 1"));
-}
-
 TEST_F(Identifiers, AreComparedAsNumbersIfTheirTypesDiffer) {
   std::vector<std::uint32_t> numbers(kPixels);
   std::vector<float> floats(kPixels);

@@ -26,13 +26,6 @@ TEST(GalleryPages, HaveAPageForEveryCellAndNoDeadLink) {
   }
 }
 
-TEST(GalleryPages, ShowThatThisSuiteFindsDeadLinks) {
-  const FakeFarm farm;
-  write_gallery(farm.directory());
-  std::filesystem::remove(farm.cell_directory(FakeFarm::kPass) / "povray.exr");
-  EXPECT_THAT(Site(farm.directory()).bad_links(), Not(IsEmpty()));
-}
-
 TEST(GalleryPages, TakeNothingFromANetwork) {
   const FakeFarm farm;
   write_gallery(farm.directory());

@@ -202,19 +202,6 @@ TEST(Publication, IsTheSameBytesForTheSameRun) {
   write_publication(farm.directory(), options);  // its own may be replaced
 }
 
-TEST(Publication, SaysWhatWritesAZip) {
-  const FakeFarm farm;
-  GalleryOptions options;
-  options.site = "site.ZIP";
-  try {
-    write_publication(farm.directory(), options);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_THAT(error.what(), HasSubstr("zip -r site.ZIP FOLDER"));
-  }
-}
-
 TEST(Publication, RefusesADirectoryThatIsNotItsOwn) {
   const FakeFarm farm;
   const TemporaryDirectory place;
