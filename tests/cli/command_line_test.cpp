@@ -95,35 +95,6 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
   }
 }
 
-TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
-  const TemporaryDirectory directory;
-  for (const char* name : {"head_on", "oblique_45"})
-    ASSERT_EQ(run_lobelia({"render", kScenes + name + ".xml", "--width", "64", "--height", "64",
-                           "-o", std::string(name) + ".exr"},
-                          directory.path())
-                  .exit_code,
-              0);
-  const auto compare = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "compare");
-    return run_lobelia(arguments, directory.path());
-  };
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr"}).exit_code, 0);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr"}).exit_code, 1);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 1)
-      << "limits add to the default ones";
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9", "--no-default-limits"})
-                .exit_code,
-            0);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "psnr=-100", "--no-default-limits"})
-                .exit_code,
-            0);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "relmse.eps=0.01=0"}).exit_code, 1);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposure", "bright"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--sensitivity"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "rsme=1"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--json", "no/such/a.json"}).exit_code, 4);
-}
-
 TEST(Compare, PrintsTheSensitivityThatTheDocumentationShows) {
   const TemporaryDirectory directory;
   ASSERT_EQ(

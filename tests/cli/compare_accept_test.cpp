@@ -315,20 +315,6 @@ TEST_F(CompareAccept, AnAcceptanceKeepsModesAndIsUndone) {
   EXPECT_EQ(run_lobelia({"accept", "truth"}, directory_.path()).exit_code, 2);
 }
 
-TEST_F(CompareAccept, AnUndoRefusesWhatWasChangedSince) {
-  differing_pair("x.exr");
-  file("lobelia.toml", kMineAndTruth);
-  accept("");
-  flat("truth/x.exr", 0.9f);
-  const std::string theirs = text("truth/x.exr");
-  const ProcessResult refused = undo({});
-  EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_THAT(refused.output_tail, HasSubstr("truth/x.exr: was changed after it was accepted"));
-  EXPECT_EQ(text("truth/x.exr"), theirs);
-  fs::copy_file(path("mine/x.exr"), path("truth/x.exr"), fs::copy_options::overwrite_existing);
-  EXPECT_EQ(undo({}).exit_code, 0) << "without an argument, the references of the project";
-}
-
 TEST_F(CompareAccept, AcceptancesOfFilesAndTablesAreUndoneToo) {
   differing_pair("x.exr"), flat("other/truth/y.exr", 0.6f), flat("mine/y.exr", 0.5f);
   const std::string x = text("truth/x.exr"), y = text("other/truth/y.exr");

@@ -158,17 +158,6 @@ TEST_F(ComparePictures, APictureThatOnlyTheReferenceHasFailsAlsoWithoutItsAlpha)
   EXPECT_EQ(made["layersInOne"]["b"], Record({""}));
 }
 
-TEST_F(ComparePictures, AlphaOfOtherNamesIsThatOfThePicture) {
-  const std::vector<ExrChannel> beauty = {channel("beauty.R", 1), channel("beauty.G", 1),
-                                          channel("beauty.B", 1), channel("beauty.A", 0.5f)};
-  exr("a.exr", 32, 32, beauty);
-  flat("b.exr", 1, {channel("A", 1)});
-  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 1);
-  flat("b.exr", 1, {channel("A", 0.5f)});
-  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 0);
-  EXPECT_EQ(compare({"a.exr", "b.exr", "--all-layers"}).exit_code, 0);
-}
-
 TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsNamedWithout) {
   flat("less.exr", 1);
   flat("more.exr", 1, {channel("Z", 1)});
