@@ -1,4 +1,3 @@
-
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"

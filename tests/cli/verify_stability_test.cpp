@@ -1,5 +1,3 @@
-
-
 #include "core/image_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"

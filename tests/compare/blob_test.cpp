@@ -1,5 +1,3 @@
-
-
 #include "core/error.hpp"
 #include "tests/compare/spots.hpp"
 #include "tests/test.hpp"

@@ -1,5 +1,3 @@
-
-
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "tests/compare/pictures.hpp"

@@ -1,5 +1,4 @@
 #include "core/colour.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,5 +1,4 @@
 #include "core/for_each_whole.hpp"
-
 #include "tests/test.hpp"
 
 #include <oneapi/tbb/task_arena.h>

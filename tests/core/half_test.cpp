@@ -3,7 +3,6 @@
 #include <immintrin.h>
 
 #include "core/half.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

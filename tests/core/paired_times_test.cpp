@@ -1,6 +1,5 @@
 // A change of speed that is found, and noise that is not.
 #include "core/paired_times.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

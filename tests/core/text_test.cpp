@@ -1,5 +1,4 @@
 #include "core/text.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,5 +1,3 @@
-
-
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"

@@ -1,4 +1,3 @@
-
 #include "farm_fixture.hpp"
 #include "tests/core/unflushed_names.hpp"
 #include "tests/test.hpp"

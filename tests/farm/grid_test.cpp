@@ -1,5 +1,3 @@
-
-
 #include "core/image_io.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"

@@ -1,5 +1,4 @@
 #include "gallery/grid_layout.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia::gallery {

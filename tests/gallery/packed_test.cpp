@@ -1,5 +1,3 @@
-
-
 #include "gallery/cell_chunk.hpp"
 #include "gallery/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"

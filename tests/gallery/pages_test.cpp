@@ -1,5 +1,3 @@
-
-
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
 #include "lobelia_paths.hpp"

@@ -1,5 +1,4 @@
 #include "renderer/filter_nodes.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

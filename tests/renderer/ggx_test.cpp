@@ -1,6 +1,5 @@
 // The laws of GGX: its shadowing is the textbook's, light is not directed one way, and none of it loses digits.
 #include "renderer/ggx.hpp"
-
 #include "tests/test.hpp"
 
 #include <boost/math/constants/constants.hpp>

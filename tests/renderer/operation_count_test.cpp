@@ -1,6 +1,5 @@
 // The arithmetic of lobes and models, against a count by hand.
 #include "renderer/operation_count.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

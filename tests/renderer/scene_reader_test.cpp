@@ -1,4 +1,3 @@
-
 #include "lobelia_paths.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "tests/renderer/scene_text.hpp"

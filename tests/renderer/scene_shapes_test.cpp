@@ -1,4 +1,3 @@
-
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
 #include "tests/renderer/scene_text.hpp"

@@ -1,5 +1,4 @@
 #include "renderer/sobol.hpp"
-
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,5 +1,3 @@
-
-
 #include "accuracy/lobe_candidates.hpp"
 #include "accuracy/picture_truth.hpp"
 #include "renderer/render.hpp"
