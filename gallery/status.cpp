@@ -30,8 +30,8 @@ static_assert(std::size(kInfos) == kCellStatuses.size());
 
 /// In the order of Outcome.
 constexpr std::array<CellStatus, records::kOutcomes> kStatuses = {
-    CellStatus::kPass,      CellStatus::kDiffers, CellStatus::kKnown,   CellStatus::kUndecided,
-    CellStatus::kNonFinite, CellStatus::kFailed,  CellStatus::kMissing, CellStatus::kFailed,
+    CellStatus::kPass,      CellStatus::kDiffers,  CellStatus::kKnown,   CellStatus::kUndecided,
+    CellStatus::kNonFinite, CellStatus::kFailed,   CellStatus::kMissing, CellStatus::kFailed,
     CellStatus::kFailed,    CellStatus::kUnchecked};
 
 }  // namespace

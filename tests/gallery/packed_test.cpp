@@ -1,17 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "gallery/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-namespace fs = std::filesystem;
-using ::testing::IsEmpty;
 
 class PackedGallery : public ::testing::Test {
  protected:

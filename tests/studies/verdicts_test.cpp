@@ -1,19 +1,14 @@
 // How often pictures with noise are called different, rightly and wrongly.
 #include "studies/verdicts/verdicts.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 
 #include "studies/verdicts/report.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::verdicts {
 namespace {
-
-using ::testing::HasSubstr;
 
 const records::VerdictsOfChange& of(const records::VerdictCell& cell, std::string_view change) {
   return *std::ranges::find(cell.changes, change, &records::VerdictsOfChange::change);
