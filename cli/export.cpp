@@ -29,12 +29,12 @@ void run_export(const ExportArguments& options) {
   request.normalisation = chosen(options.normalisation, "--normalisation", normalisation_names(),
                                  join(normalisation_names()), find_normalisation);
   request.exponent = options.exponent;
-  request.coefficient = chosen(options.coefficient, "--coefficient", coefficient_from_names(),
-                               join(coefficient_from_names()), find_coefficient_from);
+  request.coefficient =
+      CoefficientFrom(chosen_place(options.coefficient, "--coefficient", kCoefficientNames));
   request.fresnel =
       chosen(options.fresnel, "--fresnel", fresnel_names(), join(fresnel_names()), find_fresnel);
-  request.precision = chosen(options.precision, "--precision", shader_precision_names(),
-                             join(shader_precision_names()), find_shader_precision);
+  request.precision =
+      ShaderPrecision(chosen_place(options.precision, "--precision", kShaderPrecisionNames));
   require_lobe({request.models.front(), request.lobe, request.normalisation,
                 request.exponent.value_or(Highlight{}.exponent)});
   const std::string text = shader_text(request);
@@ -67,7 +67,7 @@ void add_export(CLI::App& app, ExitCode&) {
       .add("--coefficient", options->coefficient, "",
            fmt::format("Where the function has the coefficient from: {}. As an argument, it is "
                        "computed once, by the host or in a vertex stage",
-                       join(coefficient_from_names())))
+                       join(kCoefficientNames)))
       ->capture_default_str();
   group
       .add("--fresnel", options->fresnel, "",
@@ -84,7 +84,7 @@ void add_export(CLI::App& app, ExitCode&) {
       .add("--precision", options->precision, "",
            fmt::format("Numbers of the functions: {}. mediump is for GLSL and min16float for HLSL, "
                        "with a formula that holds in half floats, for phones",
-                       join(shader_precision_names())))
+                       join(kShaderPrecisionNames)))
       ->capture_default_str();
   add_common(group, "--output", options->output, "; otherwise stdout", "FILE");
   command->footer(

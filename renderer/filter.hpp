@@ -66,6 +66,7 @@ class FilterSampler {
   std::uint32_t negative_every_ = 0;  ///< every how many samples one is negative; 0: never
 };
 
+/// A place of a pixel; the weighted sum of all is the pixel's mean with the film's filter.
 struct FilterNode {
   double x, y;    ///< from the pixel's centre, pixels, y down
   double weight;  ///< of the value there; below 0 where the filter is

@@ -27,9 +27,6 @@ namespace {
 using HWY_NAMESPACE::LobesById;
 using HWY_NAMESPACE::Models;
 
-constexpr std::string_view kCoefficientFrom[] = {"computed", "argument"};
-constexpr std::string_view kPrecisions[] = {"float32", "mediump", "min16float"};
-
 constexpr std::string_view kFloat32Note =
     "Written for float32: with a sharp highlight there is no power of a cosine, which would not know the\n"
     "// angle, and no difference of numbers that nearly agree.";
@@ -261,16 +258,16 @@ std::string command_of(const ShaderExport& request) {
   command += fmt::format(" --normalisation {}", name(request.normalisation));
   if (request.exponent) command += fmt::format(" --exponent {}", *request.exponent);
   if (request.coefficient != CoefficientFrom::kComputed)
-    command += fmt::format(" --coefficient {}", kCoefficientFrom[int(request.coefficient)]);
+    command += fmt::format(" --coefficient {}", kCoefficientNames[int(request.coefficient)]);
   if (request.fresnel != Fresnel::kNone)
     command += fmt::format(" --fresnel {}", name(request.fresnel));
   if (request.precision != ShaderPrecision::kFloat32)
-    command += fmt::format(" --precision {}", kPrecisions[int(request.precision)]);
+    command += fmt::format(" --precision {}", kShaderPrecisionNames[int(request.precision)]);
   return command;
 }
 
 void require_half_floats(const ShaderExport& request, const GpuLanguage& language) {
-  const std::string_view word = kPrecisions[int(request.precision)];
+  const std::string_view word = kShaderPrecisionNames[int(request.precision)];
   if (word != language.half_word)
     throw Error(
         ExitCode::kUsage,
@@ -347,16 +344,6 @@ std::span<const std::string_view> shader_language_names() {
 }
 std::optional<ShaderLanguage> find_shader_language(std::string_view name) {
   return find_id<ShaderLanguage>(shader_language_names(), name);
-}
-
-std::span<const std::string_view> coefficient_from_names() { return kCoefficientFrom; }
-std::optional<CoefficientFrom> find_coefficient_from(std::string_view name) {
-  return find_id<CoefficientFrom>(kCoefficientFrom, name);
-}
-
-std::span<const std::string_view> shader_precision_names() { return kPrecisions; }
-std::optional<ShaderPrecision> find_shader_precision(std::string_view name) {
-  return find_id<ShaderPrecision>(kPrecisions, name);
 }
 
 std::string shader_text(const ShaderExport& request) {

@@ -24,8 +24,7 @@ enum class CoefficientFrom : std::uint8_t {
   kComputed,  ///< it computes it whenever it is called
   kArgument,  ///< it is given it; another function computes it, where there is a closed form
 };
-std::span<const std::string_view> coefficient_from_names();  ///< "computed", "argument"
-std::optional<CoefficientFrom> find_coefficient_from(std::string_view name);
+inline constexpr std::string_view kCoefficientNames[] = {"computed", "argument"};
 
 /// The numbers of the functions; a coefficient is always computed in float32.
 enum class ShaderPrecision : std::uint8_t {
@@ -33,8 +32,7 @@ enum class ShaderPrecision : std::uint8_t {
   kMediump,     ///< GLSL's
   kMin16Float,  ///< HLSL's
 };
-std::span<const std::string_view> shader_precision_names();  ///< "float32", "mediump", "min16float"
-std::optional<ShaderPrecision> find_shader_precision(std::string_view name);
+inline constexpr std::string_view kShaderPrecisionNames[] = {"float32", "mediump", "min16float"};
 
 struct ShaderExport {
   ShaderLanguage language;

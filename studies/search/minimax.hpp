@@ -35,6 +35,7 @@ Minimax minimax(const Shape& shape, const Range& range, double slope = kLeastSlo
 /// The least error that the certificate leaves possible, from the touches alone.
 double lower_bound_of(const Shape& shape, const std::vector<Touch>& touches);
 
+/// A bound of a lobe's error for every angle and every exponent of a range, not only where somebody looked.
 struct Proof {
   /// |value - cos^n| is nowhere more, s from 0 to 1 and n over the range; if `decreases`.
   double bound = 0;

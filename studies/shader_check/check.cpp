@@ -13,7 +13,6 @@
 #include "core/text.hpp"
 #include "shaders/program_text.hpp"
 #include "studies/shader_check/arguments.hpp"
-#include "studies/shader_check/costs.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/points.hpp"
 

@@ -8,6 +8,7 @@
 #include "records/shader_check.hpp"
 #include "renderer/highlight.hpp"
 #include "shaders/run_shaders.hpp"
+#include "studies/shader_check/arguments.hpp"
 
 namespace lobelia::shader_check {
 
@@ -50,5 +51,16 @@ std::string report_text(const records::ShaderCheck& record);
 
 /// One HTML file, without a script and with its pictures in it.
 std::string report_page(const Check& check);
+
+// Parts of the check: what a function costs beside ours and pow, and what half floats would make of it.
+
+/// `values` are those of `domain`, which is in `points`. What cannot be measured is a remark of the record.
+void add_costs(const Request& request, const Arguments& arguments, const std::vector<Point>& domain,
+               const ShaderPoints& points, const std::vector<ShaderValue>& values,
+               records::ShaderCheck& record);
+
+/// The time of a run over the points, over that of pow(N.H, n) in the same process.
+double times_as_long_as_pow(const Request& request, const ShaderProgram& program,
+                            const ShaderPoints& points);
 
 }  // namespace lobelia::shader_check

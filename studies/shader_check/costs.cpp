@@ -1,4 +1,4 @@
-#include "studies/shader_check/costs.hpp"
+#include "studies/shader_check/check.hpp"
 
 #include <fmt/format.h>
 

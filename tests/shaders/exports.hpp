@@ -76,7 +76,7 @@ inline std::string function_name_of(const ShaderExport& request, ModelId model) 
                     request.exponent.has_value(), request.fresnel != Fresnel::kNone);
   return request.precision == ShaderPrecision::kFloat32
              ? name
-             : fmt::format("{}_{}", name, shader_precision_names()[int(request.precision)]);
+             : fmt::format("{}_{}", name, kShaderPrecisionNames[int(request.precision)]);
 }
 
 /// A call of the exported function, with expressions for what it may take. `vectors` is "N, V, L".
