@@ -24,8 +24,7 @@ namespace {
 Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) {
   const std::string name = file.filename().string();
   if (std::error_code unknown; !std::filesystem::exists(file, unknown))
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: somebody took it away while it was needed", file.string()));
+    throw Error(ExitCode::kOutput, "{}: somebody took it away while it was needed", file.string());
   Image image;
   try {
     // Safe to trust: an engine's file was read in a separate process and encoded anew.
@@ -70,7 +69,7 @@ NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
     return noise_of_standard_errors(
         read_trusted_image(picture.directory / error_file(picture.engine)), freedom, shared);
   };
-  // What errs together is not known, so each figure is measured six times as often: of many cells, by fewer pairs.
+  // It is not known which values err together, so each figure is measured six times: of many cells, by fewer pairs.
   return {.a = noise(ours, kErrorFreedom, false),
           .b = noise(theirs, kReplicates - 1, true),
           .bootstraps = 12};

@@ -24,7 +24,7 @@ void require_index(const char* what, int index, std::size_t count) {
                                          what, index, count - 1));
 }
 
-/// What a scene's formula shows of one sphere under one light and in all.
+/// Pictures by a scene's formula of one sphere, under one light and under all.
 struct FormulaPictures {
   Image analytic;               ///< under the one light
   Image with_all;               ///< none if it is the only one
@@ -107,7 +107,7 @@ struct CleanPicture {
   }
 };
 
-/// What was left out of the highlight. Specks are listed that are at least as high as a highlight without a scene has to be.
+/// Adds the specks and clipped pixels that were left out. Specks need the least height of a highlight without a scene.
 void add_left_out(records::HighlightFigures& figures, const CleanPicture& picture,
                   const PictureFacts& facts, const HighlightMap& map, double end, double peak) {
   constexpr std::size_t kMostSpecks = 16;
@@ -142,15 +142,14 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
   require_index("sphere", sphere, scene.spheres.size());
   if (!is_delta(scene.lights[std::size_t(light)]))
     throw Error(ExitCode::kInput,
-                fmt::format("light {} is an area or an environment; a highlight's profile is of a "
-                            "directional or a point light",
-                            light));
+                "light {} is an area or an environment; a highlight's profile is of a "
+                "directional or a point light",
+                light);
   require_single_rays(scene, "a highlight's profile");
   for (const auto& [name, image] : images)
     if (image->width() != scene.film.width || image->height() != scene.film.height)
-      throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film {} x {}",
-                                                name, image->width(), image->height(),
-                                                scene.film.width, scene.film.height));
+      throw Error(ExitCode::kInput, "{} has {} x {} pixels, the scene's film {} x {}", name,
+                  image->width(), image->height(), scene.film.width, scene.film.height);
 
   const Material& material =
       scene.materials.at(std::size_t(scene.spheres[std::size_t(sphere)].material));

@@ -1,18 +1,12 @@
 // Laws that every metric of the catalogue keeps: a newly listed metric is tested by these.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
-
-#include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <set>
 
 #include "compare/highlights/find.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/picture_part.hpp"
 #include "core/scratch_memory.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
@@ -212,7 +206,7 @@ TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
 }
 
 TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
-  // Of each metric at least one output sees the difference of each pair; none is better or NaN.
+  // At least one output of each metric sees the difference of each pair; none is better or NaN.
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
       const std::vector<double> values = measure(*metric, a, b);
@@ -247,7 +241,7 @@ void expect_ever_worse(const Image& reference, const std::vector<Image>& picture
       const std::vector<double> values = measure(*metric, pictures[k], reference);
       for (std::size_t i = 0; i < values.size(); ++i) {
         const MetricOutput& output = metric->outputs[i];
-        // What cancels in a signed mean or in a centroid is rounding there.
+        // Values that cancel in a signed mean or in a centroid leave only rounding.
         const bool cancels = output.better == Better::kNearZero || output.id == "shift.highlight";
         const double rounding = cancels ? 1e-6 : 0;
         if (is_judged(output)) {

@@ -1,7 +1,6 @@
 // `cmake --install`, `make install` and `make uninstall`.
-#include <gmock/gmock.h>
-
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {
@@ -62,7 +61,7 @@ TEST(Installed, DataAndPagesAreThoseOfTheSource) {
   expect_same("lobelia/grids", "reference_scenes/grids");
   expect_same("lobelia/schemas", "docs/reference");
   expect_same("doc/lobelia/docs", "docs");
-  // What the program wrote.
+  // Files that the program wrote.
   for (const char* file :
        {"lobelia/schemas/render.schema.json", "doc/lobelia/docs/reference/README.md",
         "doc/lobelia/docs/reference/render.md"})

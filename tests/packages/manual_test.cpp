@@ -1,10 +1,8 @@
 // Man pages and completions, by man itself and by the shells.
-#include <gmock/gmock.h>
-
 #include <regex>
-#include <set>
 
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {
@@ -67,7 +65,7 @@ TEST(ManPages, CoverEveryCommandAndOptionWithoutAWarning) {
   }
 }
 
-/// What the last word of `line` may become.
+/// The completions of the last word of `line`.
 std::set<std::string> completed(const std::string& line) {
   const std::string script =
       "source \"$PREFIX\"/share/bash-completion/completions/lobelia; compopt() { :; }; "

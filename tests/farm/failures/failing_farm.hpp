@@ -2,24 +2,17 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "core/files.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 
-namespace fs = std::filesystem;
-
-/// What a farm has made, by file: every picture and figure byte for byte; of records what does not tell when, where
-/// and at what cost they were made. Logs only by name.
+/// A farm's results by file: every picture and figure byte for byte; records without the time, place and cost of their
+/// making. Logs only by name.
 using Results = std::map<std::string, std::string>;
 Results results_of(const fs::path& farm_directory);
 
