@@ -52,7 +52,7 @@ std::string report_text(const records::ShaderCheck& record);
 /// One HTML file, without a script and with its pictures in it.
 std::string report_page(const Check& check);
 
-// Parts of the check: what a function costs beside ours and pow, and what half floats would make of it.
+// Parts of the check: the cost of a shader function beside ours and pow, and the effect of half floats on it.
 
 /// `values` are those of `domain`, which is in `points`. What cannot be measured is a remark of the record.
 void add_costs(const Request& request, const Arguments& arguments, const std::vector<Point>& domain,

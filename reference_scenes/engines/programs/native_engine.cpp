@@ -21,7 +21,7 @@ std::string numbers(std::initializer_list<double> values) {
   return text;
 }
 
-/// What these programs cannot be told, as a sentence; empty if they can be told all.
+/// One sentence on what these programs cannot express; empty if they can express the scene.
 std::string why_not_told(const Scene& scene) {
   if (has_mirror(scene)) return "it has no mirrors here";
   for (const Material& material : scene.materials) {
