@@ -113,7 +113,7 @@ TEST(Blob, IsNoneOnASinglePixelAndDoubtedWhereItIsCut) {
       "it is cut by the border of the picture");
 }
 
-TEST(Blob, LeavesOutPixelsThatAreNotFiniteAndCountsThem) {
+TEST(Blob, CountsPixelsWithoutAFiniteValue) {
   Image image = tilted();
   image.pixel(3, 3)[0] = std::numeric_limits<float>::infinity();
   image.pixel(4, 140)[1] = std::numeric_limits<float>::quiet_NaN();

@@ -275,7 +275,7 @@ Image texture(double phase) {
   });
 }
 
-TEST(HighlightsTable, HasNoAlarmForTexturesAndSlopesThatHardlyDiffer) {
+TEST(HighlightsTable, HasNoAlarmForNearlyEqualTextures) {
   for (const Image& reference :
        {texture(0), texture(1.2),
         picture(kTableWidth, kTableHeight, [](double x, double) { return x; }),

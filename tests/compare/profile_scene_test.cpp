@@ -52,7 +52,7 @@ TEST(ProfileScene, MeasuresTheHalfWidthOfTheLobeOnTheWholeAndToBothSides) {
   EXPECT_LT(along["pixels"].get<double>(), 0.95 * across["pixels"].get<double>());
 }
 
-TEST(ProfileScene, ComparesTheFirstPictureWithTheOthersAndAllWithTheFormula) {
+TEST(ProfileScene, ComparesEveryPictureWithTheFormula) {
   const Scene scene = scene_with("modified_phong", 16);
   const Image image = analytic_image(scene, 0);
   const Json record = as_json(
@@ -64,7 +64,7 @@ TEST(ProfileScene, ComparesTheFirstPictureWithTheOthersAndAllWithTheFormula) {
                                       "povray-analytic", "blender-analytic"}));
 }
 
-TEST(ProfileScene, RefusesWhatTheSceneDoesNotHaveAndScenesWithoutAProfile) {
+TEST(ProfileScene, RefusesPartsMissingFromTheScene) {
   const Scene scene = scene_with("phong_rdf", 16);
   const Image image = analytic_image(scene, 0), small(3, 3), turned(120, 160);
   Scene area = scene, crowd = scene;

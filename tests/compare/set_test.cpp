@@ -297,7 +297,7 @@ class TablePairing : public FolderPairing {
   }
 };
 
-TEST_F(TablePairing, HasTheTitlesOfTheSetsInItsFirstLineAndPathsFromWhereItLies) {
+TEST_F(TablePairing, ReadsTitlesFromItsFirstLine) {
   const Pairing pairing =
       pair_pictures(table("\xef\xbb\xbfmine,name,reference,old\r\n"
                           "a/x.exr,first,b/x.exr,\r\n"

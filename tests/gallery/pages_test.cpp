@@ -110,7 +110,7 @@ TEST(GalleryPages, ListCellsThatNeedALookWithTheirReason) {
   EXPECT_THAT(list, Not(HasSubstr("n = 16 · ")));
 }
 
-TEST(GalleryPages, AreRefusedWithoutAFarmAndTheErrorSaysWhatToDo) {
+TEST(GalleryPages, NeedAFarm) {
   const TemporaryDirectory empty;
   try {
     write_gallery(empty.path());

@@ -157,7 +157,7 @@ TEST(Publication, DoesNotMakeAChangedFileRight) {
               HasSubstr("is not the file that the farm wrote"));
 }
 
-TEST(Publication, NamesStyleAndScriptByContentAndRemovesTheOldOnes) {
+TEST(Publication, RemovesOldStylesWithOldScripts) {
   const FakeFarm farm;
   const TemporaryDirectory place;
   GalleryOptions options;

@@ -177,7 +177,7 @@ Problems differences(const fs::path& root, const std::string& page) {
   return problems;
 }
 
-TEST(SecurityPage, SaysInOneTableWhatMayStartReadAndWriteWhat) {
+TEST(SecurityPage, ListsAllPermissionsInOneTable) {
   EXPECT_THAT(differences(kRoot, read(kRoot / "SECURITY.md")), IsEmpty());
   for (const std::string& one : places_in_source(kRoot))
     if (one.ends_with(": remove")) {

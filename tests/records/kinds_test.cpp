@@ -237,7 +237,7 @@ TEST(Kinds, HavePagesThatTheIndexLinks) {
   }
 }
 
-TEST(Kinds, HaveTheirOwnNamesAndSayWhatTheyAreFor) {
+TEST(Kinds, HaveSortedUniqueNames) {
   std::set<std::string_view> names;
   for (const Kind& kind : kinds()) {
     const Struct& type = kind.type();
