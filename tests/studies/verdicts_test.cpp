@@ -41,9 +41,7 @@ TEST(Verdicts, KeepThePromisedRateOfFalseAlarmsAndFindWhatIsThirtyPercentDimmer)
       EXPECT_EQ(change.pairs, change.change.empty() ? options.seeds : options.changed);
       EXPECT_EQ(change.same + change.undecided + change.different, change.pairs);
     }
-    if (cell.noise != "fireflies") {
-      EXPECT_GE(of(cell, "30 % dimmer").different, options.changed - 1) << cell.noise;
-    }
+    EXPECT_GE(of(cell, "30 % dimmer").different, options.changed - 1) << cell.noise;
   }
   // Half of the significance is that of the pixels and regions. So a significance that is five times as large fails here.
   EXPECT_LE(false_alarms, most_alarms(pairs, options.significance / 2));
