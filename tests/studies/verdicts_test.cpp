@@ -14,7 +14,7 @@ const records::VerdictsOfChange& of(const records::VerdictCell& cell, std::strin
   return *std::ranges::find(cell.changes, change, &records::VerdictsOfChange::change);
 }
 
-/// What a chance of `level` exceeds but once in a thousand such tests.
+/// A number of alarms at a chance of `level` that is exceeded once in a thousand tests.
 int most_alarms(int pairs, double level) {
   const boost::math::binomial alarms(pairs, level);
   return int(boost::math::quantile(boost::math::complement(alarms, 1e-3)));
