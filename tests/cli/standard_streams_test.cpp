@@ -135,7 +135,6 @@ TEST_F(StandardStreams, ReceiveNoPictureWhenTheyAreClosed) {
   }
 }
 
-/// A pipe that is full.
 class FullPipe {
  public:
   FullPipe() {

@@ -72,7 +72,6 @@ Image each(const Image& image, const std::function<double(double)>& change) {
   return result;
 }
 
-/// The highlight's own line.
 const records::LocalHighlight* line_of(const Comparison& comparison, const Spot& spot) {
   const auto found = std::ranges::find_if(comparison.highlights, [&](const auto& one) {
     return std::hypot(one.x + 0.5 - spot.x, one.y + 0.5 - spot.y) < 2;
