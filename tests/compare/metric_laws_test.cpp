@@ -221,7 +221,7 @@ TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
     }
 }
 
-TEST(MetricLaws, AMetricThatIsCalledSymmetricDoesNotChangeWhenThePicturesAreExchanged) {
+TEST(MetricLaws, SymmetricMetricsIgnoreTheOrderOfPictures) {
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
       const std::vector<double> forth = measure(*metric, a, b), back = measure(*metric, b, a);
