@@ -227,15 +227,13 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVar
     best = std::min(best, error);
   }
   if (error > choice.asked.value)
-    throw Error(
-        ExitCode::kInput,
-        fmt::format(
-            "--accuracy {}: cannot be reached with {} samples a pixel, where the noise alone "
-            "comes to {:.2g}; the best possible is --accuracy {}{:.2g}",
-            accuracy_text(choice.asked), most_samples, best,
-            choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000=" : "",
-            std::ceil(best / std::pow(10, std::floor(std::log10(best)) - 1)) *
-                std::pow(10, std::floor(std::log10(best)) - 1)));
+    throw Error(ExitCode::kInput,
+                "--accuracy {}: cannot be reached with {} samples a pixel, where the noise alone "
+                "comes to {:.2g}; the best possible is --accuracy {}{:.2g}",
+                accuracy_text(choice.asked), most_samples, best,
+                choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000=" : "",
+                std::ceil(best / std::pow(10, std::floor(std::log10(best)) - 1)) *
+                    std::pow(10, std::floor(std::log10(best)) - 1));
   choice.samples = samples;
   const LobeVariant* variant = first_within(
       variants,

@@ -20,10 +20,10 @@ Accuracy parse_accuracy(const std::string& text) {
   if (!parse_number(number, accuracy.value) || !(accuracy.value >= least) ||
       !(accuracy.value <= most))
     throw Error(ExitCode::kUsage,
-                fmt::format("--accuracy '{}': allowed is a share of the peak, {:g} to {:g}, or "
-                            "de2000=X, X being {:g} to {:g}",
-                            printable(text), kMinAccuracyOfPeak, kMaxAccuracyOfPeak,
-                            kMinAccuracyCiede2000, kMaxAccuracyCiede2000));
+                "--accuracy '{}': allowed is a share of the peak, {:g} to {:g}, or "
+                "de2000=X, X being {:g} to {:g}",
+                printable(text), kMinAccuracyOfPeak, kMaxAccuracyOfPeak, kMinAccuracyCiede2000,
+                kMaxAccuracyCiede2000);
   return accuracy;
 }
 

@@ -144,9 +144,9 @@ void ContentReader::add(std::string_view part, std::string_view name, const fs::
     const InputFile opened(file);
     if (opened.size() > kMostHashedBytes)
       throw Error(ExitCode::kInput,
-                  fmt::format("{}: {} bytes; a file that an engine gets as an argument, or that it "
-                              "loads, is hashed, and may have {}",
-                              printable_path(file.string()), opened.size(), kMostHashedBytes));
+                  "{}: {} bytes; a file that an engine gets as an argument, or that it "
+                  "loads, is hashed, and may have {}",
+                  printable_path(file.string()), opened.size(), kMostHashedBytes);
     hashed = hashes_.hash(opened);
   } catch (const Error& error) {
     // A program may be executable but not readable. If a fault counted as that, all keys would change without a word.

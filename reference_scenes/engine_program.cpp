@@ -132,10 +132,9 @@ const EngineStatus& ProgramEngine::status() {
 
 void require_available(const EngineInfo& engine, const EngineStatus& status) {
   if (!status.available())
-    throw Error(ExitCode::kEngine,
-                fmt::format("{} is {}: {}; to install it: {}", engine.title,
-                            status.state == EngineState::kBroken ? "broken" : "not available",
-                            status.why, engine.install_hint));
+    throw Error(ExitCode::kEngine, "{} is {}: {}; to install it: {}", engine.title,
+                status.state == EngineState::kBroken ? "broken" : "not available", status.why,
+                engine.install_hint);
 }
 
 std::vector<std::string> engine_environment(const std::filesystem::path& directory) {

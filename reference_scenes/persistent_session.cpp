@@ -57,7 +57,7 @@ class SocketPair {
  public:
   SocketPair() {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends_) != 0)
-      throw Error(ExitCode::kEngine, fmt::format("no socket: {}", std::strerror(errno)));
+      throw Error(ExitCode::kEngine, "no socket: {}", std::strerror(errno));
   }
   ~SocketPair() {
     for (const int end : ends_) ::close(end);

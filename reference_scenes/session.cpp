@@ -133,8 +133,8 @@ Session::Session(Engine& engine, const ReferenceOptions& options)
     : engine_(engine), options_(options) {
   require_available(engine.info(), engine.status());
   if (options.points < kReplicates || options.points % kReplicates != 0)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} points; allowed: multiples of {}", options.points, kReplicates));
+    throw Error(ExitCode::kUsage, "{} points; allowed: multiples of {}", options.points,
+                kReplicates);
   simple_ = engine.open_simple(options_);
 }
 

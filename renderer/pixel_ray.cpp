@@ -18,9 +18,9 @@ std::string beyond_single_rays(const Scene& scene) {
 void require_single_rays(const Scene& scene, std::string_view what) {
   if (const std::string found = beyond_single_rays(scene); !found.empty())
     throw Error(ExitCode::kInput,
-                fmt::format("{} can be told of a scene of up to {} spheres under directional and "
-                            "point lights; this one has more: {}",
-                            what, kMaxSpheresByRay, found));
+                "{} can be told of a scene of up to {} spheres under directional and "
+                "point lights; this one has more: {}",
+                what, kMaxSpheresByRay, found);
 }
 
 Vec3 film_ray(const CameraFrame& frame, double x, double y) {

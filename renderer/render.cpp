@@ -34,7 +34,7 @@ int band_rows(const Film& film, int pixels) {
 
 void require_whole_picture(const Film& film, std::string_view what) {
   if (const std::string problem = whole_picture_problem(film); !problem.empty())
-    throw Error(ExitCode::kInput, fmt::format("{}{}", what, problem));
+    throw Error(ExitCode::kInput, "{}{}", what, problem);
 }
 
 class Render {

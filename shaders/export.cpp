@@ -108,12 +108,11 @@ class Writer {
     const double constant = radiance_coefficient(highlight);  // throws if the paper has none
     const std::string formula = coefficient_formula(highlight);
     if (!fixed_ && !argument_ && formula.empty())
-      throw Error(
-          ExitCode::kUsage,
-          fmt::format("the exact coefficient of the lobe '{}' has no closed form; give the "
-                      "exponent that it is for: --exponent N, or take the coefficient as an "
-                      "argument: --coefficient argument",
-                      info(highlight.lobe).name));
+      throw Error(ExitCode::kUsage,
+                  "the exact coefficient of the lobe '{}' has no closed form; give the "
+                  "exponent that it is for: --exponent N, or take the coefficient as an "
+                  "argument: --coefficient argument",
+                  info(highlight.lobe).name);
     add_lobe(highlight.lobe, half_);
     if (fresnel_) add_part("lobelia_fresnel", embedded::gpu_fresnel, half_);
     if (info(highlight.model).has_shadowing) add_part("lobelia_smith", embedded::gpu_smith, half_);
@@ -269,21 +268,19 @@ std::string command_of(const ShaderExport& request) {
 void require_half_floats(const ShaderExport& request, const GpuLanguage& language) {
   const std::string_view word = kShaderPrecisionNames[int(request.precision)];
   if (word != language.half_word)
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--precision {}: not in {}, which has {}; mediump is GLSL's, and "
-                    "min16float is HLSL's",
-                    word, language.title,
-                    language.half_word.empty() ? "float32 alone"
-                                               : "float32 and " + std::string(language.half_word)));
+    throw Error(ExitCode::kUsage,
+                "--precision {}: not in {}, which has {}; mediump is GLSL's, and "
+                "min16float is HLSL's",
+                word, language.title,
+                language.half_word.empty() ? "float32 alone"
+                                           : "float32 and " + std::string(language.half_word));
   if (request.lobe.formula)
     throw Error(ExitCode::kUsage,
-                fmt::format("--precision {}: a formula may not hold in half floats; take a lobe of "
-                            "the catalogue, or leave --precision out",
-                            word));
+                "--precision {}: a formula may not hold in half floats; take a lobe of "
+                "the catalogue, or leave --precision out",
+                word);
   if (request.exponent.value_or(1) > kGreatestHalf)
-    throw Error(ExitCode::kUsage,
-                fmt::format("--precision {}: --exponent is at most {}", word, kGreatestHalf));
+    throw Error(ExitCode::kUsage, "--precision {}: --exponent is at most {}", word, kGreatestHalf);
 }
 
 std::string gpu_text(const ShaderExport& request, const std::vector<Highlight>& highlights) {
@@ -318,7 +315,7 @@ std::string gpu_text(const ShaderExport& request, const std::vector<Highlight>& 
 std::string checked_povray_text(const ShaderExport& request,
                                 const std::vector<Highlight>& highlights) {
   const auto refuse = [](const char* what) {
-    throw Error(ExitCode::kUsage, fmt::format("for POV-Ray {}", what));
+    throw Error(ExitCode::kUsage, "for POV-Ray {}", what);
   };
   if (request.exponent)
     refuse("the exponent is an argument of what is exported; leave --exponent out");

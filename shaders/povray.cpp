@@ -20,8 +20,7 @@ namespace {
 /// A formula in POV-Ray's language: a file of models/ or lobes/.
 std::string_view formula(std::span<const EmbeddedText> formulas, std::string_view name) {
   const auto found = std::ranges::find(formulas, name, &EmbeddedText::name);
-  if (found == formulas.end())
-    throw Error(ExitCode::kInternal, fmt::format("shaders/povray has no '{}'", name));
+  if (found == formulas.end()) throw Error(ExitCode::kInternal, "shaders/povray has no '{}'", name);
   return found->text;
 }
 

@@ -107,8 +107,7 @@ std::vector<std::string_view> tokens_of(std::string_view text) {
 
 [[noreturn]] void refuse_line(const ShaderSource& source, std::string_view text, std::size_t at,
                               std::string_view why) {
-  throw Error(ExitCode::kInput,
-              fmt::format("{}:{}: {}", source.name, 1 + count_lines(text.substr(0, at)), why));
+  throw Error(ExitCode::kInput, "{}:{}: {}", source.name, 1 + count_lines(text.substr(0, at)), why);
 }
 
 /// A byte order mark belongs to the file, not to the shader.
@@ -274,8 +273,8 @@ std::string shader_component(std::size_t i) {
 std::string plain_text(const ShaderSource& source) {
   const std::string_view text = without_mark(source.text);
   if (text.find('\0') != text.npos)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: it has zero bytes, as UTF-16 has; save it as UTF-8", source.name));
+    throw Error(ExitCode::kInput, "{}: it has zero bytes, as UTF-16 has; save it as UTF-8",
+                source.name);
   std::string plain =
       without_comments(source, joined_lines(text, source.language != ShaderText::kWgsl));
   refuse_includes(source, plain);

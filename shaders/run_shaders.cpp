@@ -25,11 +25,10 @@ std::string runner_path() {
   try {
     return companion_file(kShaderRunnerFile).string();
   } catch (const Error&) {
-    throw Error(
-        ExitCode::kEngine,
-        fmt::format("shaders cannot be run: this build of Lobelia has no {}; install {} and "
-                    "build again",
-                    kShaderRunnerFile, kPackages));
+    throw Error(ExitCode::kEngine,
+                "shaders cannot be run: this build of Lobelia has no {}; install {} and "
+                "build again",
+                kShaderRunnerFile, kPackages);
   }
 }
 
@@ -79,21 +78,18 @@ std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
   const std::string& name = programs.front().name;
   if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   if (result.timed_out)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: the shader did not end within {:g} s on {}", name,
-                            options.time_limit.seconds(),
-                            said.device.empty() ? kShaderApiNames[int(api)] : said.device));
+    throw Error(ExitCode::kInput, "{}: the shader did not end within {:g} s on {}", name,
+                options.time_limit.seconds(),
+                said.device.empty() ? kShaderApiNames[int(api)] : said.device);
   if (result.out_of_memory)
-    throw Error(ExitCode::kEngine, fmt::format("{}: the shader runner ran out of memory", name));
+    throw Error(ExitCode::kEngine, "{}: the shader runner ran out of memory", name);
   if (result.exit_code == kRunnerRefusedProgram)
     throw Error(ExitCode::kInput, compiler_message(said.rest, programs.front()));
   if (result.exit_code == kRunnerNoDevice)
-    throw Error(ExitCode::kEngine,
-                fmt::format("no driver runs shaders here ({}); install {}",
-                            printable(split(said.rest + "\n", "\n").empty()
-                                          ? std::string("no reason given")
-                                          : split(said.rest, "\n").front()),
-                            api == ShaderApi::kEgl ? "libgl1-mesa-dri" : "mesa-vulkan-drivers"));
+    throw Error(ExitCode::kEngine, "no driver runs shaders here ({}); install {}",
+                printable(split(said.rest + "\n", "\n").empty() ? std::string("no reason given")
+                                                                : split(said.rest, "\n").front()),
+                api == ShaderApi::kEgl ? "libgl1-mesa-dri" : "mesa-vulkan-drivers");
   throw Error(ExitCode::kEngine,
               result.exit_code > kSignalBase
                   ? fmt::format("{}: the driver was ended by signal {} while it ran the shader",

@@ -139,9 +139,8 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
   ShaderRun run{heard.device, "Chromium's WebGPU", {}, std::move(heard.seconds)};
   for (const std::string& bytes : heard.values) {
     if (!heard.broken.empty() || bytes.size() < count * 4 * sizeof(float))
-      throw Error(ExitCode::kEngine,
-                  fmt::format("{}: WebGPU failed: {}", name,
-                              heard.broken.empty() ? "too few values" : heard.broken));
+      throw Error(ExitCode::kEngine, "{}: WebGPU failed: {}", name,
+                  heard.broken.empty() ? "too few values" : heard.broken);
     run.values.push_back(shader_values(bytes, count));
   }
   return run;

@@ -30,8 +30,8 @@ ToolRun run_tool(const Tool& tool, std::vector<std::string> options, const Shade
                  const TimeLimit& limit) {
   const std::string path = find_program(tool.name).string();
   if (path.empty())
-    throw Error(ExitCode::kEngine,
-                fmt::format("no program '{}': sudo apt-get install {}", tool.name, tool.package));
+    throw Error(ExitCode::kEngine, "no program '{}': sudo apt-get install {}", tool.name,
+                tool.package);
   options.insert(options.begin(), path);
   const TemporaryDirectory scratch;
   write_file(scratch.path() / "in", program.bytes);
@@ -63,8 +63,8 @@ std::string optimised(const ShaderProgram& program, std::vector<std::string> pas
   passes.insert(passes.end(), {"in", "-o", "out"});
   const ToolRun run = run_tool(kOptimiser, std::move(passes), program, limit);
   if (run.out.empty())
-    throw Error(ExitCode::kEngine,
-                fmt::format("{}: spirv-opt refuses it: {}", program.name, run.said.substr(0, 200)));
+    throw Error(ExitCode::kEngine, "{}: spirv-opt refuses it: {}", program.name,
+                run.said.substr(0, 200));
   return run.out;
 }
 

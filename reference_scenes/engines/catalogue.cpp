@@ -6,11 +6,11 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
-#include "reference_scenes/engines/programs/native_engine.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/analytic/analytic.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"
 #include "reference_scenes/engines/povray/povray.hpp"
+#include "reference_scenes/engines/programs/native_engine.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {
@@ -54,9 +54,8 @@ const CatalogueEntry& entry(std::string_view name) {
     if (candidate.info.name == name) return candidate;
     names.push_back(candidate.info.name);
   }
-  throw Error(ExitCode::kUsage,
-              fmt::format("no reference engine '{}'; there are: {}{}", printable(name), join(names),
-                          did_you_mean(name, names)));
+  throw Error(ExitCode::kUsage, "no reference engine '{}'; there are: {}{}", printable(name),
+              join(names), did_you_mean(name, names));
 }
 
 }  // namespace

@@ -58,9 +58,8 @@ const SceneFormat& scene_format(std::string_view name) {
                 "format 'gltf-lights' is gone; use blender-python, and export glTF from Blender");
   std::vector<std::string_view> names;
   for (const SceneFormat& format : formats) names.push_back(format.name);
-  throw Error(ExitCode::kUsage,
-              fmt::format("format '{}' is unknown; allowed: {}{}", printable(name), join(names),
-                          did_you_mean(name, names)));
+  throw Error(ExitCode::kUsage, "format '{}' is unknown; allowed: {}{}", printable(name),
+              join(names), did_you_mean(name, names));
 }
 
 }  // namespace lobelia

@@ -50,9 +50,9 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
     for (const Material& m : scene.materials)
       if (m.highlight.exponent > kGreatestHalf)
         throw Error(ExitCode::kInput,
-                    fmt::format("exponent {:g}: float16 has no number above {:g}; choose a wider "
-                                "--precision",
-                                m.highlight.exponent, kGreatestHalf));
+                    "exponent {:g}: float16 has no number above {:g}; choose a wider "
+                    "--precision",
+                    m.highlight.exponent, kGreatestHalf);
   std::array<std::size_t, kPrecisionCount> pairs{};
   for (const Material& m : scene.materials)
     plan.any_direction_precision.push_back(asked ? *asked : sufficient_precision(m.highlight, 0));

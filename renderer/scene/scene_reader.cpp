@@ -324,11 +324,10 @@ Scene parse_scene(std::string text, const std::string& file_name,
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != text.npos && std::isgraph(static_cast<unsigned char>(text[first])) &&
       text[first] != '<')
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: is no XML; Lobelia reads scenes in its own XML (lobelia scene-format) "
-                    "and, with lobelia scene --from mitsuba, those of Mitsuba",
-                    file_name));
+    throw Error(ExitCode::kInput,
+                "{}: is no XML; Lobelia reads scenes in its own XML (lobelia scene-format) "
+                "and, with lobelia scene --from mitsuba, those of Mitsuba",
+                file_name);
   XmlSource source(std::move(text), file_name, kMaxSceneBytes);
   return SceneReader(source, directory).read();
 }

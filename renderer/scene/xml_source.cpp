@@ -19,19 +19,18 @@ constexpr std::string_view kSchemaAttributes[] = {"xmlns:xsi", "xsi:noNamespaceS
 XmlSource::XmlSource(std::string text, std::string file_name, std::size_t max_bytes)
     : original_(std::move(text)), parsed_(original_), file_name_(std::move(file_name)) {
   if (original_.size() > max_bytes)
-    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read", file_name_,
-                                              original_.size(), max_bytes));
+    throw Error(ExitCode::kInput, "{}: {} bytes; at most {} are read", file_name_, original_.size(),
+                max_bytes);
   // In place, so that names and values point into parsed_ and give their positions.
   const auto result =
       document_.load_buffer_inplace(parsed_.data(), parsed_.size(),
                                     pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
   if (!result)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: broken XML: {}", place(result.offset), result.description()));
+    throw Error(ExitCode::kInput, "{}: broken XML: {}", place(result.offset), result.description());
   for (const auto node : document_.children())
     if (node.type() == pugi::node_doctype)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: a DOCTYPE is not allowed: entities are not read", file_name_));
+      throw Error(ExitCode::kInput, "{}: a DOCTYPE is not allowed: entities are not read",
+                  file_name_);
 }
 
 std::string XmlSource::place(std::ptrdiff_t offset) const {

@@ -1,7 +1,5 @@
 #include "studies/cost/benchmarks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -29,8 +27,7 @@ std::vector<const Benchmark*> chosen_benchmarks(const std::vector<std::string>& 
   for (const Benchmark& one : kBenchmarks) {
     const bool named = std::ranges::count(names, one.name) > 0;
     const bool lacks_scene = one.needs_scenes && !has_scenes;
-    if (named && lacks_scene)
-      throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", one.name));
+    if (named && lacks_scene) throw Error(ExitCode::kUsage, "--level {} needs a SCENE", one.name);
     if (named || (names.empty() && !lacks_scene)) chosen.push_back(&one);
   }
   return chosen;

@@ -137,7 +137,7 @@ HalfHighlight exported_highlight(LobeId lobe, double n, bool difference_in_float
     return entry.model == model && entry.lobe == info(lobe).name;
   });
   if (found == Functions::all().end())
-    throw Error(ExitCode::kInternal, fmt::format("{} is not exported", info(lobe).name));
+    throw Error(ExitCode::kInternal, "{} is not exported", info(lobe).name);
   if (!difference_in_float32)
     return [n, radiance = found->radiance](Vec3 normal, Vec3 to_eye, Vec3 to_light) {
       return double(

@@ -88,9 +88,8 @@ void check(const LobeVariant& variant, double exponent, const Points& points) {
     const double value = variant.wide ? points.value[i] : double(points.value32[i]);
     const double truth = lobe_value(variant.lobe, points.s[i], exponent);
     if (!(std::abs(value - truth) <= variant.allowed + 1e-13))
-      throw Error(ExitCode::kInternal,
-                  fmt::format("{}, timed at n = {}, is {} at s = {} in place of {}", variant.name(),
-                              exponent_text(exponent), value, points.s[i], truth));
+      throw Error(ExitCode::kInternal, "{}, timed at n = {}, is {} at s = {} in place of {}",
+                  variant.name(), exponent_text(exponent), value, points.s[i], truth);
   }
 }
 

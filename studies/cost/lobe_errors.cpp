@@ -142,9 +142,8 @@ class Search {
 
   void check(double error, double allowed, double s) const {
     if (!(error <= allowed * (1 + 1e-9)))
-      throw Error(ExitCode::kInternal,
-                  fmt::format("{} is {:.3g} off near s = {}, n = {}; {:.3g} is allowed",
-                              variant_.name(), error, s, n_, allowed));
+      throw Error(ExitCode::kInternal, "{} is {:.3g} off near s = {}, n = {}; {:.3g} is allowed",
+                  variant_.name(), error, s, n_, allowed);
   }
 
   /// The start of the first octave of the search.
@@ -282,10 +281,9 @@ LobeVariantErrors LobeTruth::errors(const LobeVariant& variant) const {
   for (std::size_t i = 0; i < s_.size(); ++i) {
     const double rounding = (computed[i] - own[i].high) - own[i].low;
     if (!(std::abs(rounding) <= variant.allowed))
-      throw Error(
-          ExitCode::kInternal,
-          fmt::format("{} is {:.3g} off at s = {}, n = {}; {:.3g} is allowed", variant.name(),
-                      std::abs(rounding), s_[i], 1 / cosine_energy_ - 1, variant.allowed));
+      throw Error(ExitCode::kInternal, "{} is {:.3g} off at s = {}, n = {}; {:.3g} is allowed",
+                  variant.name(), std::abs(rounding), s_[i], 1 / cosine_energy_ - 1,
+                  variant.allowed);
     add(errors.rounding, rounding, i);
     add(errors.shape, (own[i].high - cosine[i].high) + (own[i].low - cosine[i].low), i);
     add(errors.all, (computed[i] - cosine[i].high) - cosine[i].low, i);

@@ -88,9 +88,8 @@ Table table_of(const NamedScene& named, const Options& options) {
       }
       c.seconds.push_back(result.render_seconds);
       if (!std::ranges::equal(c.first.image.values(), result.image.values()))
-        throw Error(ExitCode::kInternal,
-                    fmt::format("{}, {}, {}: two renders of one scene differ", named.name,
-                                info(c.lobe).name, name(c.precision)));
+        throw Error(ExitCode::kInternal, "{}, {}, {}: two renders of one scene differ", named.name,
+                    info(c.lobe).name, name(c.precision));
     }
   }
 

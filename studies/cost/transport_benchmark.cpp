@@ -223,11 +223,10 @@ std::string agreement(const Converged& ours, const Converged& theirs, const std:
   const double apart = rms_of_difference(ours.image, theirs.image) / scale;
   const double noise = std::hypot(ours.error, theirs.error) / scale;
   if (apart > kMostApart + 2 * noise)
-    throw Error(
-        ExitCode::kInternal,
-        fmt::format("light transport: our converged picture and that of {} are {:.2g} apart "
-                    "(relative RMS), their noise is {:.2g}",
-                    title, apart, noise));
+    throw Error(ExitCode::kInternal,
+                "light transport: our converged picture and that of {} are {:.2g} apart "
+                "(relative RMS), their noise is {:.2g}",
+                title, apart, noise);
   return fmt::format(
       "the converged pictures of ours and {} are {:.1e} apart (relative RMS), their noise is {:.1e}",
       title, apart, noise);

@@ -143,8 +143,7 @@ Program deepest(const Shape& shape, const Range& range, const std::vector<Point>
   }
   LinearSolution solution;
   if (!solve(program, solution))
-    throw Error(ExitCode::kInternal,
-                fmt::format("the linear program of {} has no solution", name(shape)));
+    throw Error(ExitCode::kInternal, "the linear program of {} has no solution", name(shape));
   Program result;
   result.excess = solution.duals[excess];
   for (std::size_t k = 0; k < excess; ++k) result.c.push_back(-solution.duals[k]);

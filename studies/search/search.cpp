@@ -168,9 +168,9 @@ Rounding parse_rounding(const std::string& text) {
     }
   }
   throw Error(ExitCode::kUsage,
-              fmt::format("--precision '{}' is unknown; allowed: float32, float16, fixed:BITS with "
-                          "{} to {} bits behind the point",
-                          printable(text), kLeastFixedBits, kMostFixedBits));
+              "--precision '{}' is unknown; allowed: float32, float16, fixed:BITS with "
+              "{} to {} bits behind the point",
+              printable(text), kLeastFixedBits, kMostFixedBits);
 }
 
 Range parse_range(const std::string& text) {
@@ -185,12 +185,11 @@ Range parse_range(const std::string& text) {
       !(*last <= kMostExponent || std::isinf(*last)))
     throw Error(
         ExitCode::kUsage,
-        fmt::format(
-            "--exponents '{}' is no range; allowed: N, or N..N or N..inf, with N from {} to {:g}",
-            printable(text), kLeastExponent, kMostExponent));
+        "--exponents '{}' is no range; allowed: N, or N..N or N..inf, with N from {} to {:g}",
+        printable(text), kLeastExponent, kMostExponent);
   if (*last < *first)
-    throw Error(ExitCode::kUsage,
-                fmt::format("--exponents '{}' is empty: {:g} is over {:g}", text, *first, *last));
+    throw Error(ExitCode::kUsage, "--exponents '{}' is empty: {:g} is over {:g}", text, *first,
+                *last);
   return {*first, *last};
 }
 
@@ -211,10 +210,9 @@ bool is_met(const records::LobeSearch& found, const Request& request) {
 
 records::LobeSearch search(const Request& request) {
   if (request.error && request.metric == "max" && *request.error < request.rounding.step)
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--error {:g} is below the rounding of {}, which is {:.2g} near the peak",
-                    *request.error, request.rounding.name, request.rounding.step));
+    throw Error(ExitCode::kUsage,
+                "--error {:g} is below the rounding of {}, which is {:.2g} near the peak",
+                *request.error, request.rounding.name, request.rounding.step);
   records::LobeSearch found;
   found.least_exponent = request.range.least_n;
   if (std::isfinite(request.range.most_n)) found.most_exponent = request.range.most_n;

@@ -93,9 +93,8 @@ Arguments::Arguments(const std::string& list, const Highlight& highlight) : high
     if (found == kInfos.end()) {
       std::vector<std::string_view> names;
       for (const ArgumentInfo& one : kInfos) names.push_back(one.name);
-      throw Error(ExitCode::kUsage,
-                  fmt::format("--arguments: '{}' is unknown; allowed: {}, and numbers{}",
-                              printable(word), join(names), did_you_mean(name, names)));
+      throw Error(ExitCode::kUsage, "--arguments: '{}' is unknown; allowed: {}, and numbers{}",
+                  printable(word), join(names), did_you_mean(name, names));
     }
     given.info = std::size_t(found - kInfos.begin());
     given_.push_back(given);

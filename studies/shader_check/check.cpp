@@ -210,11 +210,10 @@ void require_end(const Request& request, const ShaderSource& source, const Shade
       make_program(source, request.api, points.count(), points.components, request.time_limit),
       points);
   if (times > kOfALoop)
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: {} does not seem to end: it takes {:.0f} times as long as pow, and "
-                    "Mesa leaves a loop after 65535 rounds",
-                    source.name, request.function, times));
+    throw Error(ExitCode::kInput,
+                "{}: {} does not seem to end: it takes {:.0f} times as long as pow, and "
+                "Mesa leaves a loop after 65535 rounds",
+                source.name, request.function, times);
 }
 
 }  // namespace
@@ -249,8 +248,8 @@ Check check_shader(const Request& request) {
 
   const std::vector<ShaderValue>& values = run.values.front();
   if (std::ranges::none_of(values, &ShaderValue::written))
-    throw Error(ExitCode::kInput, fmt::format("{}: {} writes nothing: every call is discarded",
-                                              record.file, request.function));
+    throw Error(ExitCode::kInput, "{}: {} writes nothing: every call is discarded", record.file,
+                request.function);
   Judge judge(request, plan, values);
   std::map<double, records::ShaderError> worst;
   judge.add_errors(plan.domain, worst, record.oddities);

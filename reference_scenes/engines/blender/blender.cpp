@@ -35,8 +35,7 @@ constexpr int kSmallestSide = 4;  // in Blender, which would render a larger pic
 void require_formula(std::string_view name) {
   if (embedded::blender_formulas_py.find(fmt::format("\n    \"{}\": ", name)) ==
       std::string_view::npos)
-    throw Error(ExitCode::kEngine,
-                fmt::format("blender_formulas.py has no '{}' for Blender to render", name));
+    throw Error(ExitCode::kEngine, "blender_formulas.py has no '{}' for Blender to render", name);
 }
 
 Json json(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -121,8 +120,8 @@ Json sky_json(const Light& light, const std::string& scene) {
 /// Everything except lights and passes.
 Json scene_json(const Scene& scene, const std::string& name) {
   if (std::min(scene.film.width, scene.film.height) < kSmallestSide)
-    throw Error(ExitCode::kEngine,
-                fmt::format("Blender renders no picture below {0} x {0} pixels", kSmallestSide));
+    throw Error(ExitCode::kEngine, "Blender renders no picture below {0} x {0} pixels",
+                kSmallestSide);
   const Camera& camera = scene.camera;
   Json result{{"name", name},
               {"width", scene.film.width},

@@ -241,8 +241,8 @@ InputFile Outside::open_picture(const Film& film, const AxisValues& axes) const 
   PictureFile::require_picture(file);
   if (const std::uint64_t most = most_picture_bytes(film); file.size() > most)
     throw Error(ExitCode::kInput,
-                fmt::format("{}: the file has {} bytes; a picture of {} x {} pixels may have {}",
-                            file.path().string(), file.size(), film.width, film.height, most));
+                "{}: the file has {} bytes; a picture of {} x {} pixels may have {}",
+                file.path().string(), file.size(), film.width, film.height, most);
   return file;
 }
 

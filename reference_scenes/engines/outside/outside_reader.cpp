@@ -215,7 +215,7 @@ records::OutsideEngine read_engine_file(const fs::path& path) {
     source.error(root, fmt::format("the root element is <{}>; an engine file is one <engine>",
                                    printable(root.name())));
   source.throw_if_errors();
-  if (!engine) throw Error(ExitCode::kInput, fmt::format("{}: describes no engine", path.string()));
+  if (!engine) throw Error(ExitCode::kInput, "{}: describes no engine", path.string());
   return *engine;
 }
 

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, std::string_view why) {
-  throw Error(ExitCode::kInput, fmt::format("filename '{}' {}", printable(file), why));
+  throw Error(ExitCode::kInput, "filename '{}' {}", printable(file), why);
 }
 
 /// A sky takes twenty bytes a pixel in memory. Any file may have 4096 x 2048 pixels, files from 7 MB on 16384 x 8192.

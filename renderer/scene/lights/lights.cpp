@@ -1,7 +1,5 @@
 #include "renderer/scene/lights/lights.hpp"
 
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 
 namespace lobelia {
@@ -89,8 +87,7 @@ LightValue value_of(const Light& light, std::string_view name) {
     if (parameter.parameter.name == name) found = value;
   });
   if (found) return *found;
-  throw Error(ExitCode::kInternal,
-              fmt::format("a {} light has no parameter {}", info(light).type, name));
+  throw Error(ExitCode::kInternal, "a {} light has no parameter {}", info(light).type, name);
 }
 
 std::string picture_file(const Light& light) {

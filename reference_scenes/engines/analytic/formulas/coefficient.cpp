@@ -1,7 +1,5 @@
 // 1 / (2 pi integral of lobe times cosines times sin x, x = 0..pi/2), in pieces: as long as the lobe is wide near its
 // peak, then longer and longer. The lobe of a family ends in a corner, and so does a piece.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss.hpp>
@@ -133,8 +131,7 @@ double coefficient(const Highlight& highlight) {
   const auto& row = *std::ranges::find(paper::kRows, printed, &paper::Row::name);
   const std::string_view lobe = info(highlight.lobe).name;
   if (lobe != "cosine" && lobe != "cs16")
-    throw Error(ExitCode::kInput,
-                fmt::format("the paper prints no coefficient for the lobe '{}'", lobe));
+    throw Error(ExitCode::kInput, "the paper prints no coefficient for the lobe '{}'", lobe);
   const auto column = row.column(lobe == "cosine" ? paper::Lobe::kCosine : paper::Lobe::kCs16);
   return double(column(highlight.exponent) / model.parts);
 }

@@ -1,7 +1,5 @@
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
@@ -60,8 +58,7 @@ constexpr ModelRow kRows[] = {
 const ModelRow& model_row(std::string_view model) {
   const auto* const row = std::ranges::find(kRows, model, &ModelRow::name);
   if (row == std::end(kRows))
-    throw Error(ExitCode::kInternal,
-                fmt::format("formulas/highlight.cpp has no row for the model '{}'", model));
+    throw Error(ExitCode::kInternal, "formulas/highlight.cpp has no row for the model '{}'", model);
   return *row;
 }
 

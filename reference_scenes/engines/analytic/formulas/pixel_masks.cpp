@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <bit>
@@ -87,8 +86,8 @@ std::int64_t mark_grazing(const Scene& scene, double least_cosine, PixelFlags& r
 
 PixelFlags surface_mask(const Scene& scene) {
   if (scene.spheres.size() > kMaxSpheresByRay)
-    throw Error(ExitCode::kInput, fmt::format("a mask is of up to {} spheres; this scene has {}",
-                                              kMaxSpheresByRay, scene.spheres.size()));
+    throw Error(ExitCode::kInput, "a mask is of up to {} spheres; this scene has {}",
+                kMaxSpheresByRay, scene.spheres.size());
   const Tracer<double> tracer(scene);
   const int width = scene.film.width, height = scene.film.height;
   PixelFlags mask(std::size_t(width) * std::size_t(height));
