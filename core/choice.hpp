@@ -19,9 +19,8 @@ auto chosen(const std::string& value, std::string_view option,
             std::span<const std::string_view> names, const std::string& allowed, Find find) {
   const auto found = find(value);
   if (!found)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(value), allowed,
-                            did_you_mean(value, names)));
+    throw Error(ExitCode::kUsage, "{} '{}' is unknown; allowed: {}{}", option, printable(value),
+                allowed, did_you_mean(value, names));
   return *found;
 }
 

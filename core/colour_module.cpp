@@ -49,9 +49,8 @@ ocio::ConstConfigRcPtr own_config() {
 void require_name(std::string_view what, const std::string& config, const std::string& wanted,
                   const std::vector<std::string_view>& names) {
   if (std::ranges::count(names, wanted) > 0) return;
-  throw Error(ExitCode::kUsage,
-              fmt::format("{} has no {} '{}'{}; it has {}", config, what, printable(wanted),
-                          did_you_mean(wanted, names), printable(join(names), 400)));
+  throw Error(ExitCode::kUsage, "{} has no {} '{}'{}; it has {}", config, what, printable(wanted),
+              did_you_mean(wanted, names), printable(join(names), 400));
 }
 
 std::string chosen_display(const ocio::Config& config, const DisplayViewChoice& choice) {
@@ -84,11 +83,10 @@ std::string chosen_input(const ocio::Config& config, const DisplayViewChoice& ch
   for (const char* name : kLinearRec709)
     if (const auto space = config.getColorSpace(name)) return space->getName();
   if (const auto space = config.getColorSpace(ocio::ROLE_SCENE_LINEAR)) return space->getName();
-  throw Error(
-      ExitCode::kInput,
-      fmt::format("{} has neither a linear Rec. 709 space nor the role scene_linear; name the "
-                  "space of the pictures",
-                  choice.config));
+  throw Error(ExitCode::kInput,
+              "{} has neither a linear Rec. 709 space nor the role scene_linear; name the "
+              "space of the pictures",
+              choice.config);
 }
 
 /// OpenColorIO's default is a faster, approximate power. Its differences would show in FLIP, which takes a root of them.
@@ -170,9 +168,8 @@ std::shared_ptr<const DisplayView> OcioView::open(const DisplayViewChoice& asked
     made->choice_ = choice;
     return made;
   } catch (const ocio::Exception& error) {
-    throw Error(ExitCode::kInput,
-                fmt::format("OpenColorIO configuration {}{}: {}", choice.config,
-                            by_environment ? " ($OCIO)" : "", printable(error.what(), 300)));
+    throw Error(ExitCode::kInput, "OpenColorIO configuration {}{}: {}", choice.config,
+                by_environment ? " ($OCIO)" : "", printable(error.what(), 300));
   }
 }
 

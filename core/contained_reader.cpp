@@ -245,8 +245,8 @@ Outcome receive_answer(int pipe) {
   const bool exited = WIFEXITED(status);
   const int code = exited ? WEXITSTATUS(status) : WTERMSIG(status);
   if (exited && code == int(ExitCode::kInput))
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: a library that it needs is missing or cannot be read", program));
+    throw Error(ExitCode::kInput, "{}: a library that it needs is missing or cannot be read",
+                program);
   throw Error(exited && code == int(ExitCode::kInternal) ? ExitCode::kInternal : ExitCode::kInput,
               fmt::format("{}: failed twice to read {} ({} {})", program, picture.string(),
                           exited ? "exit code" : "signal", code));
@@ -254,9 +254,9 @@ Outcome receive_answer(int pipe) {
 
 [[noreturn]] void throw_not_loaded() {
   throw Error(ExitCode::kNoResources,
-              fmt::format("{}: OpenImageIO could not be loaded within {} s. Perhaps the system "
-                          "gives no more threads (ulimit -u, cgroup pids.max)",
-                          kReaderFile, kSecondsToLoad));
+              "{}: OpenImageIO could not be loaded within {} s. Perhaps the system "
+              "gives no more threads (ulimit -u, cgroup pids.max)",
+              kReaderFile, kSecondsToLoad);
 }
 
 /// Empty if the decoder ended normally.
@@ -295,8 +295,7 @@ Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
     request.format = file.known_format();
   const std::string message = pack(request);
   if (message.size() > kMaxRequestBytes)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: no layer '{}'", path.string(), printable(layer)));
+    throw Error(ExitCode::kInput, "{}: no layer '{}'", path.string(), printable(layer));
 
   const int shown = g_any_format ? copy.get() : file.descriptor();
   for (int attempt = 0;; ++attempt) {
@@ -325,14 +324,14 @@ Outcome ask(const PictureFile& file, const std::string& layer, Asked asked,
     const int status = reader->end();
     if (WIFEXITED(status) && WEXITSTATUS(status) == int(ExitCode::kNoResources))
       throw Error(ExitCode::kNoResources,
-                  fmt::format("{}: not enough memory or processes (ulimit -v, -d or -u, cgroup "
-                              "memory.max or pids.max)",
-                              kReaderFile));
+                  "{}: not enough memory or processes (ulimit -v, -d or -u, cgroup "
+                  "memory.max or pids.max)",
+                  kReaderFile);
     if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded)
       throw Error(ExitCode::kNoResources,
-                  fmt::format("{}: cannot be loaded: a library is missing, or there is not enough "
-                              "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
-                              kReaderFile));
+                  "{}: cannot be loaded: a library is missing, or there is not enough "
+                  "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
+                  kReaderFile);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
       not_loaded = true;
       throw_not_loaded();

@@ -1,6 +1,8 @@
 // Libraries throw Error; main prints its lines and exits with its code.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -33,6 +35,10 @@ class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message)
       : Error(code, std::vector<std::string>{message}) {}
+  /// With a message by fmt::format.
+  template <class First, class... More>
+  Error(ExitCode code, fmt::format_string<First, More...> text, First&& first, More&&... more)
+      : Error(code, fmt::format(text, std::forward<First>(first), std::forward<More>(more)...)) {}
   /// Several failures at once, such as those of a scene file; at least one.
   Error(ExitCode code, std::vector<std::string> lines)
       : std::runtime_error(std::accumulate(

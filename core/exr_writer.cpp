@@ -124,9 +124,8 @@ struct ExrWriter::State {
   void check(exr_result_t result) {
     if (failure) std::rethrow_exception(failure);
     if (result != EXR_ERR_SUCCESS)
-      throw Error(ExitCode::kInternal,
-                  fmt::format("EXR: {}", message.empty() ? ::exr_get_error_code_as_string(result)
-                                                         : message.c_str()));
+      throw Error(ExitCode::kInternal, "EXR: {}",
+                  message.empty() ? ::exr_get_error_code_as_string(result) : message.c_str());
   }
 
   /// Blocks from row y on; the last may have fewer rows.
@@ -191,8 +190,8 @@ void ExrWriter::pack_on_calling_threads() { packs_on_calling_threads = true; }
 
 void ExrWriter::write_rows(int y0, int count, const float* rgb) {
   if (y0 != next_row_ || count < 0 || count > height_ - y0)
-    throw Error(ExitCode::kInternal, fmt::format("EXR: rows {} to {} of {} after {}", y0,
-                                                 y0 + count, height_, next_row_));
+    throw Error(ExitCode::kInternal, "EXR: rows {} to {} of {} after {}", y0, y0 + count, height_,
+                next_row_);
   const std::size_t row = 3 * std::size_t(width_);
   std::vector<float>& kept = state_->rows;
   const auto keep = [&](int rows) {
@@ -219,7 +218,7 @@ void ExrWriter::write_rows(int y0, int count, const float* rgb) {
 
 void ExrWriter::finish() {
   if (next_row_ != height_)
-    throw Error(ExitCode::kInternal, fmt::format("EXR: {} of {} rows", next_row_, height_));
+    throw Error(ExitCode::kInternal, "EXR: {} of {} rows", next_row_, height_);
   state_->check(::exr_finish(&state_->context));
   state_->file.finish();
 }

@@ -40,8 +40,7 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
   if (type == fs::file_type::directory) output_error(path, EISDIR);
   if (type != fs::file_type::regular && fs::exists(fs::file_status(type)) &&
       type != fs::file_type::unknown)
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot write: not a regular file", path.string()));
+    throw Error(ExitCode::kOutput, "{}: cannot write: not a regular file", path.string());
   return target;
 }
 
@@ -57,8 +56,8 @@ thread_local int flushes_later = 0;  ///< FlushLater objects of the thread
 
 void require_bound(const InputFile& file, std::uint64_t bytes, std::uint64_t max_bytes) {
   if (bytes > max_bytes)
-    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read",
-                                              file.path().string(), bytes, max_bytes));
+    throw Error(ExitCode::kInput, "{}: {} bytes; at most {} are read", file.path().string(), bytes,
+                max_bytes);
 }
 
 /// Whether the path still names the open file.
@@ -77,7 +76,7 @@ InputFile::InputFile(const fs::path& path)
   if (!file_ || ::fstat(file_.get(), &status) != 0)
     throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
   if (!S_ISREG(status.st_mode))
-    throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
+    throw Error(ExitCode::kInput, "{}: not a regular file", path.string());
   size_ = std::uint64_t(status.st_size);
 }
 
@@ -91,8 +90,7 @@ fs::path InputFile::real_path() const {
   else if (error != std::errc::no_such_file_or_directory)  // or else there is no /proc
     throw failure_of(path_.string() + ": cannot tell where it is", error.value(), ExitCode::kInput);
   if (!is_at(real, file_.get()))
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: it was replaced while it was opened", path_.string()));
+    throw Error(ExitCode::kInput, "{}: it was replaced while it was opened", path_.string());
   return real;
 }
 
@@ -346,8 +344,8 @@ void make_directories(const fs::path& path) {
   if (!error && !fs::is_directory(path, ignored))
     error = std::make_error_code(std::errc::not_a_directory);
   if (error)
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot make the directory: {}", path.string(), error.message()));
+    throw Error(ExitCode::kOutput, "{}: cannot make the directory: {}", path.string(),
+                error.message());
 }
 
 fs::path place_for_temporaries() {

@@ -90,8 +90,7 @@ HeldDirectory find_in(const HeldDirectory& root, const fs::path& relative) {
   HeldDirectory held = root.copy();
   for (const fs::path& name : relative) held = held.below(name.string());
   if (!held && !held.is_missing())
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot write: {}", held.path().string(), held.why_not()));
+    throw Error(ExitCode::kOutput, "{}: cannot write: {}", held.path().string(), held.why_not());
   return held;
 }
 

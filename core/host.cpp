@@ -96,8 +96,7 @@ std::string find_build_id() {
   try {
     return hex(sha256_of_file(own_file()));
   } catch (const Error& error) {
-    throw Error(error.code(),
-                fmt::format("the program cannot tell which build it is: {}", error.what()));
+    throw Error(error.code(), "the program cannot tell which build it is: {}", error.what());
   }
 }
 

@@ -62,8 +62,7 @@ std::shared_ptr<OIIO::ImageInput> open(const PictureBytes& file) {
       const_cast<char*>(file.bytes.data()), file.bytes.size());
   auto created = OIIO::ImageInput::create(std::string(file.format));
   if (!created)
-    throw Error(ExitCode::kInternal,
-                fmt::format("no reader for {}: {}", file.format, OIIO::geterror()));
+    throw Error(ExitCode::kInternal, "no reader for {}: {}", file.format, OIIO::geterror());
   // The memory must live as long as the input.
   const std::shared_ptr<OIIO::ImageInput> input(created.release(),
                                                 [memory](OIIO::ImageInput* last) { delete last; });
@@ -425,7 +424,7 @@ ColourTable table_of_colours(std::string_view name) {
   const OIIO::ImageBuf colours =
       OIIO::ImageBufAlgo::color_map(ramp, 0, OIIO::string_view(name.data(), name.size()));
   if (colours.has_error() || colours.nchannels() != 3)
-    throw Error(ExitCode::kInternal, fmt::format("colour map: {}", colours.geterror()));
+    throw Error(ExitCode::kInternal, "colour map: {}", colours.geterror());
   // OpenImageIO's maps are linear light.
   Image linear(kColourTableSize, 1);
   for (int i = 0; i < kColourTableSize; ++i) colours.getpixel(i, 0, linear.pixel(i, 0).data(), 3);

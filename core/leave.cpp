@@ -70,11 +70,10 @@ Leave Leave::said_by(const fs::path& real_path) const {
 }
 
 void refuse_without_leave(const std::vector<std::string>& wishes) {
-  throw Error(
-      ExitCode::kUsage,
-      fmt::format("this would {}; if you trust the files that say so, give --allow-commands "
-                  "or name their folders in $LOBELIA_ALLOW_COMMANDS_IN",
-                  fmt::join(wishes, ", ")));
+  throw Error(ExitCode::kUsage,
+              "this would {}; if you trust the files that say so, give --allow-commands "
+              "or name their folders in $LOBELIA_ALLOW_COMMANDS_IN",
+              fmt::join(wishes, ", "));
 }
 
 InputFile open_named(const fs::path& name, const fs::path& directory, const Leave& leave,
@@ -89,9 +88,9 @@ InputFile open_named(const fs::path& name, const fs::path& directory, const Leav
 void require_no_option(std::string_view value, std::string_view what) {
   if (value.starts_with('-'))
     throw Error(ExitCode::kInput,
-                fmt::format("{} '{}': a program could take a value that begins with '-' for an "
-                            "option; rename the file",
-                            what, printable(value)));
+                "{} '{}': a program could take a value that begins with '-' for an "
+                "option; rename the file",
+                what, printable(value));
 }
 
 }  // namespace lobelia

@@ -30,8 +30,8 @@ fs::path find_companion(std::string_view name) {
 fs::path companion_file(const char* name) {
   if (fs::path found = find_companion(name); !found.empty()) return found;
   // Nothing is known of the file that it should read.
-  throw Error(ExitCode::kInput, fmt::format("{} is neither beside {} nor in ../lib/lobelia", name,
-                                            own_file().string()))
+  throw Error(ExitCode::kInput, "{} is neither beside {} nor in ../lib/lobelia", name,
+              own_file().string())
       .set_fault(true);
 }
 
@@ -42,7 +42,7 @@ void* Module::find(const char* name) {
     if (!handle_) throw failure_of(title_, std::runtime_error(::dlerror()), ExitCode::kInput);
   });
   void* const found = ::dlsym(handle_, name);
-  if (!found) throw Error(ExitCode::kInternal, fmt::format("{}: {}", title_, ::dlerror()));
+  if (!found) throw Error(ExitCode::kInternal, "{}: {}", title_, ::dlerror());
   return found;
 }
 

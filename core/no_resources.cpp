@@ -96,9 +96,9 @@ Error as_error(const std::exception& error) {
       return Error(ExitCode::kNoResources, lack);
     // Threads and locks throw it, with no other words than errno's. A lock that would wait for itself is a bug of ours.
     if (const int number = errno_of(error); number != 0 && number != EDEADLK)
-      return Error(ExitCode::kNoResources,
-                   fmt::format("the system refuses a thread or a lock: {}", error.what()));
-    return Error(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
+      return Error(ExitCode::kNoResources, "the system refuses a thread or a lock: {}",
+                   error.what());
+    return Error(ExitCode::kInternal, "internal error: {}", error.what());
   }
   // "filesystem error: WHAT: WHY [PATH]"
   constexpr std::string_view kPrefix = "filesystem error: ";

@@ -24,11 +24,10 @@ const TransferCurve kLinear{Kind::kLinear, 1, "linear"}, kSrgb{Kind::kSrgb, 1, "
     kRec709{Kind::kRec709, 1, "Rec709"}, kPq{Kind::kPq, 1, "PQ"}, kHlg{Kind::kHlg, 1, "HLG"};
 
 [[noreturn]] void unknown_curve(const std::string& where, const std::string& what) {
-  throw Error(
-      ExitCode::kInput,
-      fmt::format("{}: not a readable picture: {}; sRGB, linear, Rec709, PQ, HLG and a gamma from "
-                  "{} to {} are read",
-                  where, what, kLeastGamma, kMostGamma));
+  throw Error(ExitCode::kInput,
+              "{}: not a readable picture: {}; sRGB, linear, Rec709, PQ, HLG and a gamma from "
+              "{} to {} are read",
+              where, what, kLeastGamma, kMostGamma);
 }
 
 TransferCurve gamma_curve(const std::string& where, double gamma) {

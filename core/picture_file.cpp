@@ -96,8 +96,8 @@ bool see_exr_attributes(std::string_view bytes, const See& see) {
 constexpr std::string_view kBecameShorter = "it became shorter while it was read";
 
 Error not_readable(const std::filesystem::path& path, std::string_view why) {
-  return Error(ExitCode::kInput,
-               fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
+  return Error(ExitCode::kInput, "{}: not a readable picture: {}", path.string(),
+               printable(why, 300));
 }
 
 [[noreturn]] void system_said(const std::filesystem::path& path, int error) {

@@ -120,11 +120,10 @@ std::string list(std::span<const std::string> names, std::size_t count) {
   for (const PicturePart& part : parts)
     channels.insert(channels.end(), part.channels.begin(), part.channels.end());
   for (const PictureLayer& layer : layers) names.push_back(layer.name);
-  throw Error(
-      ExitCode::kInput,
-      fmt::format("{}: no channels R, G and B, and no Y: its channels are {}; a layer has to "
-                  "be chosen: {}",
-                  where, list(channels, channels.size()), list(names, names.size())));
+  throw Error(ExitCode::kInput,
+              "{}: no channels R, G and B, and no Y: its channels are {}; a layer has to "
+              "be chosen: {}",
+              where, list(channels, channels.size()), list(names, names.size()));
 }
 
 /// The layer that a part's name means: its colours, or its only layer.
@@ -212,8 +211,8 @@ const PictureLayer* layer_called(const std::string& where, std::span<const Pictu
   if (found.size() == 1) return &layers[found[0]];
   std::vector<std::string> several;
   for (const std::size_t i : found) several.push_back(layers[i].name);
-  throw Error(ExitCode::kInput, fmt::format("{}: layer '{}' may be {}; give more of its name",
-                                            where, printable(name), list(several, several.size())));
+  throw Error(ExitCode::kInput, "{}: layer '{}' may be {}; give more of its name", where,
+              printable(name), list(several, several.size()));
 }
 
 }  // namespace
@@ -290,10 +289,10 @@ PictureLayer find_layer(const std::string& where, std::span<const PicturePart> p
     if (!layer.name.empty()) names.push_back(layer.name);
   throw Error(
       ExitCode::kInput,
-      fmt::format(
-          "{}: no layer '{}'{}; {}", where, printable(name), printable(did_you_mean(name, names)),
-          names.empty() ? "there is the picture alone"
-                        : "there are " + list(nearest_first(name, names, kShown), names.size())));
+
+      "{}: no layer '{}'{}; {}", where, printable(name), printable(did_you_mean(name, names)),
+      names.empty() ? "there is the picture alone"
+                    : "there are " + list(nearest_first(name, names, kShown), names.size()));
 }
 
 }  // namespace lobelia

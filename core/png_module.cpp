@@ -184,7 +184,7 @@ class SpngEncoder : public PngEncoder {
   static void check(int result) {
     if (result == SPNG_EMEM || result == SPNG_EZLIB_INIT) throw std::bad_alloc();
     if (result != 0)
-      throw Error(ExitCode::kOutput, fmt::format("cannot encode png: {}", ::spng_strerror(result)));
+      throw Error(ExitCode::kOutput, "cannot encode png: {}", ::spng_strerror(result));
   }
 
   std::vector<std::uint8_t> bytes_;

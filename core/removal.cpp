@@ -174,13 +174,12 @@ HeldDirectory HeldDirectory::make_below(const std::string& name, Border border) 
   HeldDirectory made = below(name, border);
   if (made.is_missing() && open_) {
     if (::mkdirat(fd(), name.c_str(), 0777) != 0 && errno != EEXIST)
-      throw Error(ExitCode::kOutput, fmt::format("{}: cannot make the directory: {}",
-                                                 made.path().string(), std::strerror(errno)));
+      throw Error(ExitCode::kOutput, "{}: cannot make the directory: {}", made.path().string(),
+                  std::strerror(errno));
     made = below(name, border);
   }
   if (!made)
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot write: {}", made.path().string(), made.why_not()));
+    throw Error(ExitCode::kOutput, "{}: cannot write: {}", made.path().string(), made.why_not());
   return made;
 }
 

@@ -81,7 +81,7 @@ class ReplacedFolder {
     try {
       keep_as_last();
     } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{}; all files are replaced", error.what()));
+      throw Error(error.code(), "{}; all files are replaced", error.what());
     }
   }
 
@@ -90,8 +90,7 @@ class ReplacedFolder {
     if (ReplacementOutcome done = finish(); done.way == ReplacementOutcome::Way::kPutBack)
       return done;
     if (!has(kLastStage))
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: no acceptance to undo", root_.path().string()));
+      throw Error(ExitCode::kInput, "{}: no acceptance to undo", root_.path().string());
     const Journal journal = read_journal(store_, kLastStage);
     require_undoable(journal);
     const EndDelay delay;
@@ -102,8 +101,7 @@ class ReplacedFolder {
       put_back(journal, Check::kNone);
       drop_back();
     } catch (const Error& error) {
-      throw Error(error.code(),
-                  fmt::format("{}; the same command puts back the rest", error.what()));
+      throw Error(error.code(), "{}; the same command puts back the rest", error.what());
     }
     interrupts_come_too_late();
     return {ReplacementOutcome::Way::kPutBack, places(journal), {}};
@@ -131,13 +129,12 @@ class ReplacedFolder {
                                    }});
     // It opens the folder by its path.
     if (!removal.root().is_same_as(root_))
-      throw Error(ExitCode::kOutput,
-                  fmt::format("{}: cannot write: it was moved meanwhile", root_.path().string()));
+      throw Error(ExitCode::kOutput, "{}: cannot write: it was moved meanwhile",
+                  root_.path().string());
     removal.remove(relative);
     if (!removal.kept().empty())
-      throw Error(ExitCode::kOutput,
-                  fmt::format("{}: cannot remove: {}", removal.kept().front().path.string(),
-                              removal.kept().front().why));
+      throw Error(ExitCode::kOutput, "{}: cannot remove: {}", removal.kept().front().path.string(),
+                  removal.kept().front().why);
   }
 
   /// In one step first: a "back" without its journal could not be finished.
@@ -373,9 +370,8 @@ ReplacementOutcome finish_replacement(const fs::path& folder) {
     return ReplacedFolder(HeldDirectory(folder)).finish();
   } catch (const Error& error) {
     if (error.code() == ExitCode::kInterrupted) throw;
-    throw Error(error.code(),
-                fmt::format("{}: an acceptance was interrupted and cannot be finished: {}",
-                            folder.string(), error.what()));
+    throw Error(error.code(), "{}: an acceptance was interrupted and cannot be finished: {}",
+                folder.string(), error.what());
   }
 }
 
@@ -386,8 +382,8 @@ std::optional<LastReplacement> last_replacement(const fs::path& folder) {
   for (const char* stage : {kNowStage, kBackStage, kLastStage}) {
     const HeldDirectory held = store.below(stage);
     if (held.is_fault())
-      throw Error(ExitCode::kOutput,
-                  fmt::format("{}: cannot be read: {}", held.path().string(), held.why_not()));
+      throw Error(ExitCode::kOutput, "{}: cannot be read: {}", held.path().string(),
+                  held.why_not());
     if (held) {
       std::error_code unknown;
       return LastReplacement{fs::last_write_time(held.path() / kJournalFile, unknown),
@@ -399,7 +395,7 @@ std::optional<LastReplacement> last_replacement(const fs::path& folder) {
 
 ReplacementOutcome undo_replacement(const fs::path& folder) {
   if (!has_replacements(folder))
-    throw Error(ExitCode::kInput, fmt::format("{}: no acceptance to undo", folder.string()));
+    throw Error(ExitCode::kInput, "{}: no acceptance to undo", folder.string());
   return ReplacedFolder(HeldDirectory(folder)).undo();
 }
 

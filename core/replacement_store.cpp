@@ -120,16 +120,16 @@ HeldDirectory made_store(const HeldDirectory& root) {
   const bool was_missing = root.below(kReplacedName).is_missing();
   HeldDirectory store = root.make_below(kReplacedName);
   if (!is_trusted(root, store))
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot write: it belongs to another user", store.path().string()));
+    throw Error(ExitCode::kOutput, "{}: cannot write: it belongs to another user",
+                store.path().string());
   if (was_missing) share_as(root, {}, store);
   if (is_marked(store)) return store;
   // Another process may have written it meanwhile.
   if (!is_new(store) && !is_marked(store))
     throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot write: its {} is not that of lobelia compare --accept, so "
-                            "what is in it may be somebody else's; move it away",
-                            store.path().string(), kMark));
+                "{}: cannot write: its {} is not that of lobelia compare --accept, so "
+                "what is in it may be somebody else's; move it away",
+                store.path().string(), kMark);
   write_in(store, kMark, kMarkText);
   return store;
 }
@@ -140,8 +140,7 @@ ByteLocks opened_lock(const HeldDirectory& root, const HeldDirectory& store) {
   make_lock(root, store);
   ByteLocks locks(store, kLockFile);
   if (!locks.is_open())
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: cannot write: {}", store.path().string(), locks.why_not()));
+    throw Error(ExitCode::kOutput, "{}: cannot write: {}", store.path().string(), locks.why_not());
   return locks;
 }
 
@@ -152,8 +151,7 @@ ByteLocks::Claim claimed(const HeldDirectory& store, const ByteLocks& locks) {
       // It is also granted if the system could not lock.
       const ByteLocks other(store, kLockFile, ByteLocks::Opening::kLook);
       if (locks.works() && !other.is_claimed(0))
-        throw Error(ExitCode::kOutput,
-                    fmt::format("{}: cannot lock", (store.path() / kLockFile).string()));
+        throw Error(ExitCode::kOutput, "{}: cannot lock", (store.path() / kLockFile).string());
       return std::move(*claim);
     }
     throw_if_interrupted();
@@ -175,14 +173,14 @@ ReplacementJournal read_journal(const HeldDirectory& store, const char* stage) {
   std::optional<ReplacementJournal> journal = text ? ReplacementJournal::read(*text) : std::nullopt;
   if (!journal)
     throw Error(ExitCode::kInput,
-                fmt::format("{}: is missing or damaged; once the files in {} are what they should "
-                            "be, remove {}",
-                            (held.path() / kJournalFile).string(),
-                            store.path().parent_path().string(), store.path().string()));
+                "{}: is missing or damaged; once the files in {} are what they should "
+                "be, remove {}",
+                (held.path() / kJournalFile).string(), store.path().parent_path().string(),
+                store.path().string());
   if (journal->directory != inode_of(held))
     throw Error(ExitCode::kInput,
-                fmt::format("{}: is a copy from another place and is not acted upon; remove {}",
-                            (held.path() / kJournalFile).string(), store.path().string()));
+                "{}: is a copy from another place and is not acted upon; remove {}",
+                (held.path() / kJournalFile).string(), store.path().string());
   return std::move(*journal);
 }
 

@@ -47,9 +47,8 @@ Sha256Digest sha256_of_file(const InputFile& file, std::chrono::duration<double>
   Hasher one;
   read_pieces(file, kMostHashedBytes, [&, begun = Clock::now()](std::string_view piece) {
     if (Clock::now() - begun > time_limit)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: {} bytes, which were not read within {:g} s",
-                              file.path().string(), file.size(), time_limit.count()));
+      throw Error(ExitCode::kInput, "{}: {} bytes, which were not read within {:g} s",
+                  file.path().string(), file.size(), time_limit.count());
     one.take(piece);
   });
   return one.finish();

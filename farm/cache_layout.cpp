@@ -183,12 +183,11 @@ void require_cache(const HeldDirectory& root) {
   const bool is_begun = has_only_our_names(root);
   if (const auto marker = root.read(kCacheMarkerFile, 64)) {
     if (*marker != kCacheLayout)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: a cache of another layout; this program reads layout {}",
-                              root.path().string(), kCacheLayout.substr(0, 1)));
+      throw Error(ExitCode::kInput, "{}: a cache of another layout; this program reads layout {}",
+                  root.path().string(), kCacheLayout.substr(0, 1));
   } else if (!is_begun) {
-    throw Error(ExitCode::kInput, fmt::format("{}: not empty and not a cache (it has no file '{}')",
-                                              root.path().string(), kCacheMarkerFile));
+    throw Error(ExitCode::kInput, "{}: not empty and not a cache (it has no file '{}')",
+                root.path().string(), kCacheMarkerFile);
   }
 }
 
@@ -198,8 +197,7 @@ HeldDirectory open_cache(const fs::path& directory, ByteLocks::Opening opening) 
     make_directories(directory);
     root = HeldDirectory(directory);
   }
-  if (!root)
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", directory.string(), root.why_not()));
+  if (!root) throw Error(ExitCode::kInput, "{}: {}", directory.string(), root.why_not());
   require_cache(root);
   for (const char* part : kParts) {
     // Fails in a read-only cache, which stays as it is.

@@ -52,8 +52,7 @@ bool is_same_file(const fs::path& cached, const fs::path& there) {
 }
 
 [[noreturn]] void fail(const fs::path& path, int error) {
-  throw Error(ExitCode::kOutput,
-              fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
+  throw Error(ExitCode::kOutput, "{}: cannot write: {}", path.string(), std::strerror(error));
 }
 
 /// Makes `part` a link to `cached`, or a copy of the same age if the cache is on another file system.
@@ -121,8 +120,7 @@ std::vector<records::CellFile> files_of(const CellRecords& records) {
 
 HeldDirectory existing(const fs::path& directory) {
   HeldDirectory held(directory);
-  if (!held)
-    throw Error(ExitCode::kOutput, fmt::format("{}: {}", directory.string(), held.why_not()));
+  if (!held) throw Error(ExitCode::kOutput, "{}: {}", directory.string(), held.why_not());
   return held;
 }
 
@@ -137,11 +135,10 @@ FarmDirectoryLock::FarmDirectoryLock(const fs::path& directory, Use use, ByteLoc
   if (auto claim = locks_.try_claim(0, use == Use::kFarm))
     claim_.emplace(std::move(*claim));
   else
-    throw Error(
-        ExitCode::kOutput,
-        fmt::format("{}: {} is at work in this directory; try again when it has ended",
-                    directory.string(),
-                    use == Use::kFarm ? "'lobelia farm clean' or 'verify --remove'" : "a farm"));
+    throw Error(ExitCode::kOutput,
+                "{}: {} is at work in this directory; try again when it has ended",
+                directory.string(),
+                use == Use::kFarm ? "'lobelia farm clean' or 'verify --remove'" : "a farm");
 }
 
 CellDirectory::CellDirectory(const fs::path& farm_directory, const JobGraph& graph,

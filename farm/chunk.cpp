@@ -106,11 +106,10 @@ std::string why_not_read(const HeldDirectory& directory, const std::string& name
 ChunkReport parse_report(const std::string& text, std::size_t number) {
   auto record = records::parse_record<records::FarmChunkReport>(text, "");
   if (!is_node_name(record.node))
-    throw Error(ExitCode::kInput, fmt::format("'{}' is no name of a node", printable(record.node)));
+    throw Error(ExitCode::kInput, "'{}' is no name of a node", printable(record.node));
   for (LeftUndone& left : record.left) {
     if (!is_engine_name(left.engine))
-      throw Error(ExitCode::kInput,
-                  fmt::format("'{}' is no name of an engine", printable(left.engine)));
+      throw Error(ExitCode::kInput, "'{}' is no name of an engine", printable(left.engine));
     left.why = printable(left.why, kMostWhy);
   }
   return {std::move(record), number};
@@ -157,9 +156,8 @@ ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave,
   const InputFile opened(file);
   const std::string text = read_file(opened, records::kMaxRecordBytes);
   if (planned && sha256(text) != *planned)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: not the chunk that was submitted: its SHA-256 is {}, not {}",
-                            printable_path(file.string()), hex(sha256(text)), hex(*planned)));
+    throw Error(ExitCode::kInput, "{}: not the chunk that was submitted: its SHA-256 is {}, not {}",
+                printable_path(file.string()), hex(sha256(text)), hex(*planned));
   const auto chunk = records::parse_record<records::FarmChunk>(text, file.string());
   const Leave trusted = leave.said_by(opened.real_path());
   if (!trusted) refuse_without_leave(wishes_of_chunk(chunk));
@@ -177,7 +175,7 @@ ChunkSummary exec_chunk(const fs::path& file, int threads, const Leave& leave,
   options.leave_undone = true;
   options.failed_directory = chunk.failed.value_or("");
   if (chunk.failed && !options.failed_directory.is_absolute())
-    throw Error(ExitCode::kInput, fmt::format("{}: 'failed' is no absolute path", file.string()));
+    throw Error(ExitCode::kInput, "{}: 'failed' is no absolute path", file.string());
   const std::vector<FarmEngine> engines = planned_engines(chunk, trusted);
   for (const auto& planned : chunk.engines)
     if (!planned.program.empty()) options.programs[planned.name] = planned.program;
@@ -233,14 +231,14 @@ void write_chunk_report(const fs::path& run_directory, std::size_t number,
   const fs::path path = directory / fmt::format("{}.json", number);
   const std::string node = own_node_name();
   if (!is_node_name(node))
-    throw Error(ExitCode::kOutput, fmt::format("{}: '{}' is no name of a node",
-                                               printable_path(path.string()), printable(node)));
+    throw Error(ExitCode::kOutput, "{}: '{}' is no name of a node", printable_path(path.string()),
+                printable(node));
   make_directories(directory);
   for (const fs::path& one : {directory, path}) {
     std::error_code ignored;
     if (fs::is_symlink(fs::symlink_status(one, ignored)))
-      throw Error(ExitCode::kOutput, fmt::format("{}: a link; a report is not written through it",
-                                                 printable_path(one.string())));
+      throw Error(ExitCode::kOutput, "{}: a link; a report is not written through it",
+                  printable_path(one.string()));
   }
   records::FarmChunkReport record;
   record.node = node;

@@ -26,8 +26,8 @@ fs::path directory_of_cell(const fs::path& farm_directory, const std::string& ce
   const fs::path cells = farm_directory / "cells";
   if (!is_plain_name(cell) || !is_there(cells, S_IFDIR) || !is_there(cells / cell, S_IFDIR) ||
       !is_there(cells / cell / kCellRecordFile, S_IFREG))
-    throw Error(ExitCode::kInput, fmt::format("{}: no cell '{}' with a cell.json",
-                                              farm_directory.string(), printable(cell, 200)));
+    throw Error(ExitCode::kInput, "{}: no cell '{}' with a cell.json", farm_directory.string(),
+                printable(cell, 200));
   return cells / cell;
 }
 
@@ -174,14 +174,13 @@ records::FarmExplanation explain_cell(const fs::path& directory, const std::stri
       if (job.empty() || job == name) explanation.jobs.push_back(explainer.job(name, key));
     }
   } catch (const ForeignRecord&) {
-    throw Error(ExitCode::kInput, fmt::format("{}: its cell.json is none that this version wrote",
-                                              cell_directory.string()));
+    throw Error(ExitCode::kInput, "{}: its cell.json is none that this version wrote",
+                cell_directory.string());
   }
   if (!job.empty() && explanation.jobs.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: cell {} has no result of a job '{}'; it has {}",
-                            directory.string(), printable(cell, 200), printable(job, 200),
-                            names.empty() ? "none" : printable(names, 400)));
+    throw Error(ExitCode::kInput, "{}: cell {} has no result of a job '{}'; it has {}",
+                directory.string(), printable(cell, 200), printable(job, 200),
+                names.empty() ? "none" : printable(names, 400));
   for (const auto& problem : record.problems)
     explanation.without.push_back(fmt::format("{}: {}", problem.engine, problem.message));
   for (const auto& engine : record.missing_engines)

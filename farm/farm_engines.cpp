@@ -69,9 +69,9 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
     const EngineInfo& info = engine.engine->info();
     const EngineStatus& status = engine.engine->status();
     if (status.state == EngineState::kBroken)
-      throw Error(ExitCode::kEngine, fmt::format("{} is broken: {}", info.title, status.why));
+      throw Error(ExitCode::kEngine, "{} is broken: {}", info.title, status.why);
     if (!engine.here && !program.empty())
-      throw Error(ExitCode::kEngine, fmt::format("{}: {}", info.title, status.why));
+      throw Error(ExitCode::kEngine, "{}: {}", info.title, status.why);
     if (!engine.here && choice.required) throw Error(ExitCode::kEngine, absence(engine));
     if (!engine.here) take_from_last_run(engine);
     engines.push_back(std::move(engine));

@@ -25,19 +25,17 @@ void require_apart(const fs::path& cache, const fs::path& directory) {
   for (const char* part : {"results", "failures", "making"})
     inside = inside || is_below(b, a / part);
   if (inside)
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
-                    directory.string(), cache.string()));
+    throw Error(ExitCode::kUsage,
+                "{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
+                directory.string(), cache.string());
 }
 
 const Grid& checked(const Grid& grid) {
   if (grid.cell_count() > kMaxFarmCells)
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: {} cells; a farm has at most {}: cut the grid into several, which may "
-                    "share a cache (--cache)",
-                    grid.file_name, grid.cell_count(), kMaxFarmCells));
+    throw Error(ExitCode::kInput,
+                "{}: {} cells; a farm has at most {}: cut the grid into several, which may "
+                "share a cache (--cache)",
+                grid.file_name, grid.cell_count(), kMaxFarmCells);
   return grid;
 }
 
@@ -59,8 +57,8 @@ const fs::path& made(const fs::path& directory, const FarmOptions& options) {
   const HeldDirectory held(directory);
   for (const std::string& link : held.links())
     if (link == "cells" || link == "farm.json")
-      throw Error(ExitCode::kOutput, fmt::format("{}: a symbolic link, which is not followed",
-                                                 (directory / link).string()));
+      throw Error(ExitCode::kOutput, "{}: a symbolic link, which is not followed",
+                  (directory / link).string());
   return directory;
 }
 
@@ -347,11 +345,10 @@ FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOpti
     const bool has_lost = work.lost > 0 || session.has_lost(states);
     if (!has_lost || (options.fail_fast && summary.failed > 0)) return summary;
     if (round == kMostRounds)
-      throw Error(
-          ExitCode::kOutput,
-          fmt::format("{}: results vanish while the farm is at work; the same command makes "
-                      "them again",
-                      session.cache().directory().string()));
+      throw Error(ExitCode::kOutput,
+                  "{}: results vanish while the farm is at work; the same command makes "
+                  "them again",
+                  session.cache().directory().string());
     now.again = false;
   }
 }

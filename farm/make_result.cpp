@@ -24,8 +24,7 @@ namespace {
 Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) {
   const std::string name = file.filename().string();
   if (std::error_code unknown; !std::filesystem::exists(file, unknown))
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: somebody took it away while it was needed", file.string()));
+    throw Error(ExitCode::kOutput, "{}: somebody took it away while it was needed", file.string());
   Image image;
   try {
     // Safe to trust: an engine's file was read in a separate process and encoded anew.

@@ -142,15 +142,14 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere, const 
   require_index("sphere", sphere, scene.spheres.size());
   if (!is_delta(scene.lights[std::size_t(light)]))
     throw Error(ExitCode::kInput,
-                fmt::format("light {} is an area or an environment; a highlight's profile is of a "
-                            "directional or a point light",
-                            light));
+                "light {} is an area or an environment; a highlight's profile is of a "
+                "directional or a point light",
+                light);
   require_single_rays(scene, "a highlight's profile");
   for (const auto& [name, image] : images)
     if (image->width() != scene.film.width || image->height() != scene.film.height)
-      throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film {} x {}",
-                                                name, image->width(), image->height(),
-                                                scene.film.width, scene.film.height));
+      throw Error(ExitCode::kInput, "{} has {} x {} pixels, the scene's film {} x {}", name,
+                  image->width(), image->height(), scene.film.width, scene.film.height);
 
   const Material& material =
       scene.materials.at(std::size_t(scene.spheres[std::size_t(sphere)].material));

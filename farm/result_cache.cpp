@@ -35,8 +35,7 @@ std::int64_t modified(const struct stat& status) {
 }
 
 [[noreturn]] void fail(const fs::path& path, const char* what, int error) {
-  throw Error(ExitCode::kOutput,
-              fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error)));
+  throw Error(ExitCode::kOutput, "{}: cannot {}: {}", path.string(), what, std::strerror(error));
 }
 
 /// Files are written in a draft first: a killed process leaves half-written files nowhere else.
@@ -249,8 +248,8 @@ void ResultCache::discard(const ResultKey& key) const {
   Removal removing = removal();
   discard(key, removing);
   if (const auto& kept = removing.kept(); !kept.empty())
-    throw Error(ExitCode::kOutput, fmt::format("{}: cannot take it away: {}",
-                                               kept.front().path.string(), kept.front().why));
+    throw Error(ExitCode::kOutput, "{}: cannot take it away: {}", kept.front().path.string(),
+                kept.front().why);
 }
 
 bool ResultCache::discard(const ResultKey& key, Removal& removal) const {
@@ -272,10 +271,9 @@ std::optional<ByteLocks::Claim> ResultCache::try_use(bool shared) const {
 ByteLocks::Claim ResultCache::use() const {
   auto claim = try_use(true);
   if (!claim)
-    throw Error(
-        ExitCode::kOutput,
-        fmt::format("{}: 'lobelia farm gc' is at work in this cache; try again when it has ended",
-                    directory_.string()));
+    throw Error(ExitCode::kOutput,
+                "{}: 'lobelia farm gc' is at work in this cache; try again when it has ended",
+                directory_.string());
   return std::move(*claim);
 }
 

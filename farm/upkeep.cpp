@@ -122,8 +122,7 @@ Removal removal_from_farm(const fs::path& directory, bool dry_run) {
 /// Throws Error(kOutput) for anything but a directory, such as a link.
 HeldDirectory there_or_missing(HeldDirectory directory) {
   if (!directory && !directory.is_missing())
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: {}", directory.path().string(), directory.why_not()));
+    throw Error(ExitCode::kOutput, "{}: {}", directory.path().string(), directory.why_not());
   return directory;
 }
 
@@ -185,11 +184,10 @@ CachePlace cache_of(const fs::path& path) {
   std::error_code ignored;
   if (is_cache(path)) return {path, true, false};
   if (!fs::exists(path / "farm.json", ignored))
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: neither a farm's directory (it has no farm.json) nor a cache (it has "
-                    "no lobelia-cache)",
-                    path.string()));
+    throw Error(ExitCode::kInput,
+                "{}: neither a farm's directory (it has no farm.json) nor a cache (it has "
+                "no lobelia-cache)",
+                path.string());
   const std::string recorded = read_farm_record(path).cache;
   const fs::path cache = (path / (recorded.empty() ? "cache" : recorded)).lexically_normal();
   return {cache, is_cache(cache), true};
@@ -271,9 +269,8 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
       directory, options.dry_run ? ResultCache::Opening::kLook : ResultCache::Opening::kMake);
   const auto alone = cache.try_use(false);
   if (!alone)
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}: a farm is using this cache; try again when it has ended",
-                            directory.string()));
+    throw Error(ExitCode::kOutput, "{}: a farm is using this cache; try again when it has ended",
+                directory.string());
   Removal removal =
       cache.removal(options.dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
   removal.on_removed(options.on_removed);
@@ -317,11 +314,10 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
 
 std::uint64_t parse_size(const std::string& text) {
   const auto fail = [&]() -> std::uint64_t {
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format(
-            "size '{}'; allowed: 0, or a number with B, K, M, G or T (of 1024), such as 10G",
-            printable(text)));
+    throw Error(ExitCode::kUsage,
+
+                "size '{}'; allowed: 0, or a number with B, K, M, G or T (of 1024), such as 10G",
+                printable(text));
   };
   constexpr std::string_view kUnits = "BKMGT";
   std::string number = text;

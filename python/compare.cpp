@@ -149,8 +149,7 @@ py::object compare(const py::object& a, const py::object& b, const py::dict& giv
   if (is_for_set(choice)) {
     for (const auto& [picture, letter] : {std::pair(a, "a"), std::pair(b, "b")})
       if (!picture.is_none() && !is_path(picture))
-        throw Error(ExitCode::kUsage,
-                    fmt::format("{} is no path; of a set, both are folders or files", letter));
+        throw Error(ExitCode::kUsage, "{} is no path; of a set, both are folders or files", letter);
     return py::cast(compare_set(choice, progress));
   }
   if (a.is_none() || b.is_none())

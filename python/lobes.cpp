@@ -21,8 +21,8 @@ constexpr double kRounding = 1e-6;
 
 double checked_exponent(double n) {
   if (!(n >= kMinExponent && n <= kMaxExponent))
-    throw Error(ExitCode::kUsage, fmt::format("exponent {} is out of range; allowed: {:g} to {:g}",
-                                              n, kMinExponent, kMaxExponent));
+    throw Error(ExitCode::kUsage, "exponent {} is out of range; allowed: {:g} to {:g}", n,
+                kMinExponent, kMaxExponent);
   return n;
 }
 
@@ -30,8 +30,7 @@ double checked_exponent(double n) {
 template <class T>
 T checked_s(T s) {
   if (s < -kRounding || s > 2 + kRounding)
-    throw Error(ExitCode::kUsage,
-                fmt::format("s = {} is out of range; allowed: 0 to 2, it is 1 - cosine", s));
+    throw Error(ExitCode::kUsage, "s = {} is out of range; allowed: 0 to 2, it is 1 - cosine", s);
   return std::clamp(s, T(0), T(2));
 }
 
@@ -138,7 +137,7 @@ enum class LobeFunction { kValue, kSample, kDensity };
 double evaluate(const PreparedLobe& lobe, double x, LobeFunction function) {
   if (function == LobeFunction::kSample) {
     if (x >= 0 && x < 1) return lobe.sample(x);
-    throw Error(ExitCode::kUsage, fmt::format("u = {} is out of range; allowed: 0 to below 1", x));
+    throw Error(ExitCode::kUsage, "u = {} is out of range; allowed: 0 to below 1", x);
   }
   const double s = checked_s(x);
   if (std::isnan(s)) return s;
@@ -174,16 +173,14 @@ py::array of_highlight(Highlight highlight, const Doubles& n, py::ssize_t count,
 
 double checked_incidence(double radians) {
   if (!(radians >= 0 && radians <= kMostGrazing))
-    throw Error(ExitCode::kUsage,
-                fmt::format("incidence {} is out of range; allowed: 0 to {:.6g} radians", radians,
-                            kMostGrazing));
+    throw Error(ExitCode::kUsage, "incidence {} is out of range; allowed: 0 to {:.6g} radians",
+                radians, kMostGrazing);
   return radians;
 }
 
 void check_cosine(const char* name, double cosine) {
   if (cosine < -1 - kRounding || cosine > 1 + kRounding)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} = {} is out of range; allowed: -1 to 1", name, cosine));
+    throw Error(ExitCode::kUsage, "{} = {} is out of range; allowed: -1 to 1", name, cosine);
 }
 
 double checked_radiance(const Highlight& highlight, double n_dot_l, double n_dot_v, double given) {

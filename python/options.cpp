@@ -66,9 +66,9 @@ void parse_options(const py::dict& options, const std::function<void(CLI::App&)>
         known.push_back(text);
       }
       const std::vector<std::string_view> names(known.begin(), known.end());
-      throw Error(ExitCode::kUsage, fmt::format("option '{}' is unknown; allowed: {}{}",
-                                                printable(std::string(py::str(key))), join(names),
-                                                did_you_mean(std::string(py::str(key)), names)));
+      throw Error(ExitCode::kUsage, "option '{}' is unknown; allowed: {}{}",
+                  printable(std::string(py::str(key))), join(names),
+                  did_you_mean(std::string(py::str(key)), names));
     }
     const auto texts = texts_of(value);
     if (texts && texts->empty()) words.push_back("--" + name);

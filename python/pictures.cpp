@@ -46,8 +46,8 @@ void write(const py::object& path, const py::object& array, double exposure) {
   const std::filesystem::path file = path_of(path);
   const std::string ending = file.extension().string();
   if (ending != ".exr" && ending != ".png")
-    throw Error(ExitCode::kUsage, fmt::format("{}: the name must end in .exr or .png",
-                                              printable_path(file.string())));
+    throw Error(ExitCode::kUsage, "{}: the name must end in .exr or .png",
+                printable_path(file.string()));
   run(py::none(), [&](const ShowProgress&) {
     if (ending == ".exr")
       write_exr(file, image, {});
@@ -76,9 +76,9 @@ void refuse_masked(const py::object& array, const std::string& name) {
   constexpr int kMostAxes = 32;  // of numpy
   if (has_masked(array, kMostAxes))
     throw Error(ExitCode::kInput,
-                fmt::format("{}: it has masked values, which would count as the numbers below the "
-                            "mask; fill them first, with numpy.ma.filled",
-                            name));
+                "{}: it has masked values, which would count as the numbers below the "
+                "mask; fill them first, with numpy.ma.filled",
+                name);
 }
 
 namespace {
@@ -147,12 +147,11 @@ ArrayPicture picture_of(const py::object& object, const std::string& name) {
   const py::array array = py::array::ensure(object);
   if (!array) PyErr_Clear();
   const auto fail = [&](const std::string& what) {
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: {}; a picture is a path, or an array (height, width), (height, width, 1), "
-                    "(height, width, 3) or (height, width, 4): floats are linear light with "
-                    "Rec. 709 primaries, uint8 are sRGB codes",
-                    name, what));
+    throw Error(ExitCode::kInput,
+                "{}: {}; a picture is a path, or an array (height, width), (height, width, 1), "
+                "(height, width, 3) or (height, width, 4): floats are linear light with "
+                "Rec. 709 primaries, uint8 are sRGB codes",
+                name, what);
   };
   if (!array || array.dtype().kind() == 'O' || array.dtype().kind() == 'U')
     fail("it is no array of numbers");
@@ -168,9 +167,8 @@ ArrayPicture picture_of(const py::object& object, const std::string& name) {
   const py::ssize_t height = array.shape(0), width = array.shape(1);
   if (height < 1 || width < 1 || height > kMaxImageSide || width > kMaxImageSide ||
       height * width > kMaxImagePixels)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: it has {} x {} pixels; allowed: 1 to {} a side, {} in all", name,
-                            width, height, kMaxImageSide, kMaxImagePixels));
+    throw Error(ExitCode::kInput, "{}: it has {} x {} pixels; allowed: 1 to {} a side, {} in all",
+                name, width, height, kMaxImageSide, kMaxImagePixels);
   const bool is_masked_array =
       py::isinstance(object, py::module_::import("numpy.ma").attr("MaskedArray"));
   if (!is_masked_array) refuse_masked(object, name);  // a list of masked arrays

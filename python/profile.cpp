@@ -85,7 +85,7 @@ struct Pictures {
 std::string blobs(const py::list& given, std::optional<std::array<double, 2>> at,
                   std::optional<std::array<int, 4>> region, double least) {
   if (!(least >= 0 && least <= 1))
-    throw Error(ExitCode::kUsage, fmt::format("least {} is out of range; allowed: 0 to 1", least));
+    throw Error(ExitCode::kUsage, "least {} is out of range; allowed: 0 to 1", least);
   Pictures pictures(given);
   BlobOptions options;
   options.search.least_share = least;

@@ -109,7 +109,7 @@ Rendered reference(const py::object& text, const std::string& name, const py::di
   Scene scene = scene_of(text);
   overrides.apply(scene);
   if (const std::string why = engine->why_not(scene, options); !why.empty())
-    throw Error(ExitCode::kInput, fmt::format("scene: not comparable, because {}", why));
+    throw Error(ExitCode::kInput, "scene: not comparable, because {}", why);
   ReferenceResult result;
   run(py::none(), [&](const ShowProgress&) {
     result = Session(*engine, options).render(scene);

@@ -80,8 +80,8 @@ void require_short_keys(const std::string& text, const std::string& where) {
       i = std::min(text.find('\n', i), text.size());
       parts = 0;
     } else if (c == '.' && ++parts == kMostParts) {
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: a key has over {} parts", printable_path(where), kMostParts));
+      throw Error(ExitCode::kInput, "{}: a key has over {} parts", printable_path(where),
+                  kMostParts);
     } else if (std::string_view("\n=,{[").find(c) != std::string_view::npos) {
       parts = 0;
     }
@@ -93,10 +93,9 @@ Json parse_toml(const std::string& text, const std::string& where) {
   try {
     return json_of(toml::parse(text, where));
   } catch (const toml::parse_error& error) {
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: line {}, column {}: {}", printable_path(where), error.source().begin.line,
-                    error.source().begin.column, printable(error.description())));
+    throw Error(ExitCode::kInput, "{}: line {}, column {}: {}", printable_path(where),
+                error.source().begin.line, error.source().begin.column,
+                printable(error.description()));
   }
 }
 
@@ -104,7 +103,7 @@ Json parse_toml(const std::string& text, const std::string& where) {
 /// a path would end.
 void require_clear_json(const std::string& text, const std::string& where) {
   const auto refuse = [&](std::string_view why) {
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", printable_path(where), why));
+    throw Error(ExitCode::kInput, "{}: {}", printable_path(where), why);
   };
   std::vector<std::set<std::string>> keys;  // of the objects around
   using Event = Json::parse_event_t;

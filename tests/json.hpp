@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/files.hpp"
-#include "core/version.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -17,12 +16,6 @@ using records::Json;
 template <class T>
 Json as_json(const T& record) {
   return Json::parse(records::record_text(record));
-}
-
-/// A record from JSON that may lack anything that its reader does not ask for.
-template <class T>
-T from_json(const Json& json) {
-  return records::parse_record<T>(json.dump(), "a test");
 }
 
 inline Json read_json(const std::filesystem::path& path) {
@@ -37,13 +30,6 @@ inline void write_json(const std::filesystem::path& path, const Json& json) {
 inline Json sealed(Json json) {
   json[records::kSealKey] = records::seal_of(json);
   return json;
-}
-
-/// A record with nothing but its kind and version.
-inline Json json_record(const std::string& kind) {
-  return {{"schemaVersion", records::kRecordSchemaVersion},
-          {"kind", kind},
-          {"madeBy", kNameAndVersion}};
 }
 
 }  // namespace lobelia

@@ -1,12 +1,8 @@
 // The error that an action ends with.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-
 #include "core/error.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

@@ -464,7 +464,7 @@ std::optional<SlurmJobId> Submitter::call_sbatch(const std::vector<std::string>&
     refusal = why;
     return {};
   }
-  throw Error(ExitCode::kEngine, fmt::format("Slurm did not take the job: {}", why));
+  throw Error(ExitCode::kEngine, "Slurm did not take the job: {}", why);
 }
 
 }  // namespace lobelia

@@ -148,21 +148,20 @@ RecordedRun read_run(const fs::path& directory, const Leave& leave,
       records::parse_record<records::FarmRun>(read_file(file, records::kMaxRecordBytes), name);
   if (planned && hash_of_run(record) != *planned)
     throw Error(ExitCode::kInput,
-                fmt::format("{}: it says other things than when this job was submitted; 'lobelia "
-                            "farm status DIR --attach' ends the run as it says now",
-                            printable_path(name)));
+                "{}: it says other things than when this job was submitted; 'lobelia "
+                "farm status DIR --attach' ends the run as it says now",
+                printable_path(name));
   // With another identity, results would have other keys.
   const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
   if (!differences.empty())
-    throw Error(ExitCode::kInput, fmt::format("{}: a run that cannot go on here: {}", name,
-                                              fmt::join(differences, "; ")));
+    throw Error(ExitCode::kInput, "{}: a run that cannot go on here: {}", name,
+                fmt::join(differences, "; "));
   std::error_code unknown;
   if (!fs::equivalent(record.directory, directory, unknown))
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: a run of the farm in '{}'; begin a new one with 'lobelia farm GRID "
-                    "-o DIR --executor slurm'",
-                    name, printable(record.directory, 1000)));
+    throw Error(ExitCode::kInput,
+                "{}: a run of the farm in '{}'; begin a new one with 'lobelia farm GRID "
+                "-o DIR --executor slurm'",
+                name, printable(record.directory, 1000));
   RecordedRun run;
   run.grid_file = record.grid;
   run.directory = directory;

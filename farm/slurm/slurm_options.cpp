@@ -22,9 +22,8 @@ void require_plain(std::string_view what, std::string_view value, std::size_t mo
                        return c < 32 || c == 127;
                      });
   if (!plain)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{}: '{}' is over {} bytes or holds control characters", what,
-                            printable(value), most));
+    throw Error(ExitCode::kUsage, "{}: '{}' is over {} bytes or holds control characters", what,
+                printable(value), most);
 }
 
 constexpr long long kMostAsked = 1'000'000'000;  // beyond any request; its double still is a number
@@ -61,30 +60,28 @@ std::vector<std::string> sbatch_arguments(const SlurmOptions& options) {
   add("--constraint", options.constraint);
   // A run adds nodes to the list; sbatch takes a list with "/" for the name of a file.
   if (options.exclude.find('/') != std::string::npos)
-    throw Error(ExitCode::kUsage, fmt::format("--exclude={}: name the nodes, not a file of them",
-                                              printable(options.exclude)));
+    throw Error(ExitCode::kUsage, "--exclude={}: name the nodes, not a file of them",
+                printable(options.exclude));
   require_plain("--exclude", options.exclude, 60000);
   if (!options.exclude.empty()) result.push_back("--exclude=" + options.exclude);
   if (options.exclusive) result.push_back("--exclusive");
   if (options.processors < 1 || options.processors > 4096)
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("processors of an element: {} is not within 1 to 4096", options.processors));
+    throw Error(ExitCode::kUsage, "processors of an element: {} is not within 1 to 4096",
+                options.processors);
   if (options.throttle < 0 || options.throttle > 1'000'000)
-    throw Error(ExitCode::kUsage,
-                fmt::format("elements at once: {} is not within 0 to 1000000", options.throttle));
+    throw Error(ExitCode::kUsage, "elements at once: {} is not within 0 to 1000000",
+                options.throttle);
   add("--cpus-per-task", std::to_string(options.processors));
   for (const std::string& option : options.raw) {
     require_plain("sbatch option", option);
     if (option.size() < 3 || !option.starts_with("--"))
-      throw Error(ExitCode::kUsage,
-                  fmt::format("sbatch option '{}' does not begin with --", printable(option)));
+      throw Error(ExitCode::kUsage, "sbatch option '{}' does not begin with --", printable(option));
     // sbatch also takes abbreviated options: "--arr=0-9".
     const std::string_view name = std::string_view(option).substr(0, option.find('='));
     for (const auto ours : kSetByTheRun)
       if (ours == name || (name.size() > 4 && ours.starts_with(name)))
-        throw Error(ExitCode::kUsage, fmt::format("sbatch option '{}': {} is set by the run itself",
-                                                  printable(option), ours));
+        throw Error(ExitCode::kUsage, "sbatch option '{}': {} is set by the run itself",
+                    printable(option), ours);
     result.push_back(option);
   }
   return result;

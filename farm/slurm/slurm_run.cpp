@@ -35,11 +35,10 @@ class Client {
     const ByteLocks locks(HeldDirectory(run_.directory), "client.lock");
     const auto lock = locks.try_claim(0);
     if (!locks.is_open())
-      throw Error(ExitCode::kOutput,
-                  fmt::format("{}: {}", run_.directory.string(), locks.why_not()));
+      throw Error(ExitCode::kOutput, "{}: {}", run_.directory.string(), locks.why_not());
     if (!lock)
-      throw Error(ExitCode::kOutput, fmt::format("{}: another client has this run ({})",
-                                                 run_.directory.string(), locks.holder()));
+      throw Error(ExitCode::kOutput, "{}: another client has this run ({})",
+                  run_.directory.string(), locks.holder());
     if (locks.works())
       locks.write_holder();
     else
@@ -66,14 +65,13 @@ class Client {
   void prepare_directory() {
     const auto absent = SlurmClient::absent_programs();
     if (!absent.empty())
-      throw Error(ExitCode::kEngine, fmt::format("no Slurm here: no program '{}' in $PATH",
-                                                 fmt::join(absent, "', '")));
+      throw Error(ExitCode::kEngine, "no Slurm here: no program '{}' in $PATH",
+                  fmt::join(absent, "', '"));
     run_.directory = fs::absolute(run_.work.run_directory).lexically_normal();
     // sbatch reads "%%" in a file name as "%", but "\" turns off every "%".
     if (run_.directory.string().find_first_of("\\\n\r") != std::string::npos)
-      throw Error(ExitCode::kUsage,
-                  fmt::format("{}: sbatch takes no path with a backslash or a line end",
-                              printable(run_.directory.string(), 200)));
+      throw Error(ExitCode::kUsage, "{}: sbatch takes no path with a backslash or a line end",
+                  printable(run_.directory.string(), 200));
     make_directories(run_.directory);
     const HeldDirectory held(run_.directory);
     // Without "log" an element fails and nobody says why.
@@ -139,7 +137,7 @@ class Client {
       why = living.why;
       throw_if_interrupted();
     }
-    throw Error(ExitCode::kEngine, fmt::format("Slurm does not answer: {}", why));
+    throw Error(ExitCode::kEngine, "Slurm does not answer: {}", why);
   }
 
   /// Waits until none of them is in the queue.
@@ -200,12 +198,11 @@ class Client {
                    "no node can run them ({}): 'sinfo -R' says why, and an administrator brings a "
                    "node back with 'scontrol update NodeName=NODE State=RESUME'",
                    nodes_say);
-    throw Error(
-        ExitCode::kEngine,
-        fmt::format("nothing runs and nothing will: {} of {} wait because of '{}'. {}; then the "
-                    "same command goes on. 'scancel --me --name={}' gives them up",
-                    count_text(progress.pending, "element"), ids_text(run_.outcome.jobs),
-                    progress.reason, what, run_.record.name));
+    throw Error(ExitCode::kEngine,
+                "nothing runs and nothing will: {} of {} wait because of '{}'. {}; then the "
+                "same command goes on. 'scancel --me --name={}' gives them up",
+                count_text(progress.pending, "element"), ids_text(run_.outcome.jobs),
+                progress.reason, what, run_.record.name);
   }
 
   bool no_node_is_usable(SlurmJobId id, std::string& states) const {

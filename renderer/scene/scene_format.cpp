@@ -138,11 +138,10 @@ std::string scene_format_document() {
 For anyone who writes a scene by hand or by a program. [Write a scene](howto/write_a_scene.md) is a
 gentler start.
 
-The syntax follows Mitsuba's: elements with a `type`, parameters as `<float name= value=>`, a camera
-by `<lookat>`, materials inside their shape or by `<ref id=>`. The types and versions differ, so a
-Mitsuba scene is not a Lobelia scene. `lobelia scene --from mitsuba` [converts it](howto/convert_from_mitsuba.md).
-Example scenes are in [reference_scenes/scenes](../reference_scenes/scenes); those in `effects/`
-have area lights, mirrors or a lens. `lobelia scene-format` prints this page.
+The syntax follows Mitsuba's, but types and versions differ: `lobelia scene --from mitsuba`
+[converts a scene](howto/convert_from_mitsuba.md). Example scenes are in
+[reference_scenes/scenes](../reference_scenes/scenes); those in `effects/` have area lights, mirrors or a lens.
+`lobelia scene-format` prints this page.
 
 ```xml
 <scene version="{}">
@@ -169,8 +168,7 @@ have area lights, mirrors or a lens. `lobelia scene-format` prints this page.
 
 A point or a vector is `value="x, y, z"` or `x= y= z=`; a colour is one number (grey) or
 three (linear Rec. 709). Right-handed; units and directions: [conventions](conventions.md).
-Errors are reported together, each with its line and column. An element of an unknown type is not
-read further: errors inside it appear once the type is right. No DOCTYPE and no entities.
+No DOCTYPE and no entities.
 
 Limits: {} MiB, {} spheres, {} planes, {} materials and {} pixels. There may be {} emitters
 ([many lights](#many-lights)), {} of them `constant` or `envmap`. Their number times that of
@@ -266,14 +264,13 @@ lobelia scene-format --xsd > scene.xsd
 xmllint --noout --schema scene.xsd reference_scenes/scenes/oblique_45.xml
 ```
 
-The schema finds less than the program does. It cannot tie a parameter to the element's type: it allows every parameter of
-any `<sensor>` in each `<sensor>`, and the widest of their ranges.
+The schema finds less than the program does: it allows every parameter of any `<sensor>` in each `<sensor>`, with the widest
+range.
 
 ## Try a lobe
 
-A formula needs neither a scene of its own nor a build: `--formula` gives it to every material. Our picture and that of
-an engine that knows only the formula should agree; `models` measures width, energy and reciprocity; `export` writes
-the shader, with the coefficient for one exponent.
+`--formula` gives a formula to every material, without a build. Our picture and that of an engine that knows only the
+formula should agree; `models` measures width, energy and reciprocity; `export` writes the shader, for one exponent.
 
 ```sh
 lobelia render reference_scenes/scenes/oblique_45.xml --formula '1/(1 + n*s/4)^4' -o idea.exr
@@ -283,9 +280,8 @@ lobelia models --formula '1/(1 + n*s/4)^4' --exponent 64
 lobelia export --language glsl modified_phong --formula '1/(1 + n*s/4)^4' --exponent 64 -o idea.glsl
 ```
 
-On a grid's axis `lobe` a value is `expression:1/(1+n*s/4)^4`, with commas and blanks inside parentheses only.
 The kernels evaluate a formula one value at a time, far more slowly than a lobe of the catalogue: `lobelia cost SCENE
---level picture` measures both. A lobe that is worth it gets a file ([CONTRIBUTING](../CONTRIBUTING.md#add-a-part)).
+--level picture` measures both. A lobe that is worth it [gets a file](howto/add_a_lobe.md).
 )--",
       kMaxFormulaBytes, kMaxFormulaNodes, kMaxFormulaDepth);
   return text;

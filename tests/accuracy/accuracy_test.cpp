@@ -1,19 +1,15 @@
 #include "accuracy/accuracy.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "accuracy/lobe_candidates.hpp"
 #include "core/image_values.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia::accuracy {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr const char* kScenes[] = {"grazing_80",  "head_on",    "oblique_45",
                                    "point_light", "two_lights", "two_spheres"};

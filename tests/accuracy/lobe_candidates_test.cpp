@@ -1,9 +1,5 @@
 #include "accuracy/lobe_candidates.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/test.hpp"
 
 namespace lobelia::accuracy {
 namespace {

@@ -1,12 +1,9 @@
 #include "accuracy/picture_truth.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::accuracy {
 namespace {

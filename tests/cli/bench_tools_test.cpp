@@ -1,17 +1,14 @@
 // The programs of `make bench` and `make bench-compare`, without a word on how fast anything is.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/text.hpp"
 #include "records/bench.hpp"
 #include "records/record.hpp"
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
 
 class BenchTools : public ::testing::Test {
  protected:

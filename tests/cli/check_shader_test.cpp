@@ -1,18 +1,13 @@
 // lobelia check-shader as a user runs it, and its page in docs/.
-#include <gmock/gmock.h>
-
-#include <set>
-
 #include "core/text.hpp"
 #include "studies/shader_check/mistakes.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"
 #include "tests/shaders/shader_runner.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 /// Only a hang takes so long.
 constexpr char kHang[] = "--time-limit=3600";

@@ -1,20 +1,13 @@
 // One language for all commands: what an option means, and what is said of words that are none.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/manual_tables.hpp"
 #include "core/text.hpp"
 #include "run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 std::vector<cli::CommandRow> commands(const std::string& wanted = "") {
   CLI::App app("", "lobelia");

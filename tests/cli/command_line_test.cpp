@@ -1,12 +1,8 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 struct Mistake {
   std::vector<std::string> arguments;
@@ -96,35 +92,6 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
     expect_one_line(run_lobelia(arguments, directory.path()), exit_code, message);
     EXPECT_EQ(files_in(directory.path()), 0u);
   }
-}
-
-TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
-  const TemporaryDirectory directory;
-  for (const char* name : {"head_on", "oblique_45"})
-    ASSERT_EQ(run_lobelia({"render", kScenes + name + ".xml", "--width", "64", "--height", "64",
-                           "-o", std::string(name) + ".exr"},
-                          directory.path())
-                  .exit_code,
-              0);
-  const auto compare = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "compare");
-    return run_lobelia(arguments, directory.path());
-  };
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr"}).exit_code, 0);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr"}).exit_code, 1);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 1)
-      << "limits add to the default ones";
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9", "--no-default-limits"})
-                .exit_code,
-            0);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "psnr=-100", "--no-default-limits"})
-                .exit_code,
-            0);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "relmse.eps=0.01=0"}).exit_code, 1);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposure", "bright"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--sensitivity"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "rsme=1"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--json", "no/such/a.json"}).exit_code, 4);
 }
 
 TEST(Compare, PrintsTheSensitivityThatTheDocumentationShows) {

@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <filesystem>
 #include <iterator>
-#include <limits>
 
 #include "core/replacement.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
@@ -13,10 +11,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-namespace fs = std::filesystem;
 
 class CompareAccept : public ComparePictures {
  protected:
@@ -319,20 +313,6 @@ TEST_F(CompareAccept, AnAcceptanceKeepsModesAndIsUndone) {
   expect_one_line(undo(), 3, "no acceptance to undo");
   expect_one_line(undo({"nowhere"}), 3, "nowhere: no such file or folder");
   EXPECT_EQ(run_lobelia({"accept", "truth"}, directory_.path()).exit_code, 2);
-}
-
-TEST_F(CompareAccept, AnUndoRefusesWhatWasChangedSince) {
-  differing_pair("x.exr");
-  file("lobelia.toml", kMineAndTruth);
-  accept("");
-  flat("truth/x.exr", 0.9f);
-  const std::string theirs = text("truth/x.exr");
-  const ProcessResult refused = undo({});
-  EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_THAT(refused.output_tail, HasSubstr("truth/x.exr: was changed after it was accepted"));
-  EXPECT_EQ(text("truth/x.exr"), theirs);
-  fs::copy_file(path("mine/x.exr"), path("truth/x.exr"), fs::copy_options::overwrite_existing);
-  EXPECT_EQ(undo({}).exit_code, 0) << "without an argument, the references of the project";
 }
 
 TEST_F(CompareAccept, AcceptancesOfFilesAndTablesAreUndoneToo) {

@@ -1,26 +1,15 @@
 // lobelia compare with folders, second references and its reports, as a user runs it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
 #include <pugixml.hpp>
-#include <random>
-#include <set>
 
 #include "core/image_io.hpp"
 #include "core/text.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-namespace fs = std::filesystem;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 class CompareFolders : public ComparePictures {
  protected:
@@ -82,17 +71,6 @@ TEST_F(CompareFolders, WritesTheSameReportWithAnyNumberOfThreads) {
       1);
   EXPECT_EQ(text("one.csv"), text("five.csv"));
   EXPECT_EQ(text("one.json"), text("five.json"));
-}
-
-TEST_F(CompareFolders, FailWithoutAnyPair) {
-  EXPECT_EQ(compare({"a", "b"}).exit_code, 3);
-  put("a/x.exr", 0.1f), put("b/y.exr", 0.1f);
-  for (const char* option : {"--quiet", "--verbose"}) {
-    const auto result = compare({"a", "b", option});
-    EXPECT_EQ(result.exit_code, 3);
-    EXPECT_THAT(result.output_tail,
-                HasSubstr("1 references have no picture, 1 pictures no reference"));
-  }
 }
 
 TEST_F(CompareFolders, WriteNoReportOverAnotherSite) {
@@ -279,29 +257,6 @@ TEST_F(CompareFolders, ThePageCountsAsTheSummaryDoes) {
     EXPECT_THAT(page, HasSubstr(std::string(" ") + word + "</span>"));
   EXPECT_THAT(page, Not(HasSubstr("</span> no picture")));
   EXPECT_THAT(page, Not(HasSubstr("differs from a by")));
-}
-
-TEST_F(CompareFolders, APictureWithoutAReferenceFailsIfItIsToFail) {
-  put("a/x.exr", 0.1f), put("b/x.exr", 0.1f), put("a/new.exr", 0.1f);
-  EXPECT_EQ(compare({"a", "b"}).exit_code, 0);
-  const auto failed = compare({"a", "b", "--missing-reference", "fail", "-q", "--junit", "r.xml"});
-  EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_THAT(failed.output_tail, HasSubstr("extra       new.exr: there is no reference"));
-  EXPECT_THAT(read_file(path("r.xml"), 1 << 20), HasSubstr("tests=\"2\" failures=\"1\""));
-  EXPECT_EQ(compare({"a", "b", "--missing-reference", "no"}).exit_code, 2);
-  write_file(path("p.toml"),
-             "judged = [\"a\"]\nreferences = [\"b\"]\nmissingReference = \"fail\"\n");
-  EXPECT_EQ(compare({"--project", "p.toml"}).exit_code, 1);
-  EXPECT_EQ(compare({"--project", "p.toml", "--missing-reference", "notice"}).exit_code, 0);
-}
-
-TEST_F(CompareFolders, AFrameWithItsNumberWrittenInAnotherWayFailsASequence) {
-  for (const char* frame : {"a/f.1.exr", "b/f.1.exr", "a/f.02.exr", "b/f.-3.exr"}) put(frame, 0.1f);
-  const auto result = compare({"a/f.%d.exr", "b/f.%d.exr", "--json", "set.json"});
-  EXPECT_EQ(result.exit_code, 1) << result.output_tail;
-  EXPECT_THAT(result.output_tail, HasSubstr("misnamed    a/f.02.exr: nearly a frame"));
-  EXPECT_THAT(result.output_tail, HasSubstr("1 pair: 1 pass"));
-  EXPECT_EQ(json("set.json")["misnamed"], Record({"a/f.02.exr", "b/f.-3.exr"}));
 }
 
 TEST_F(CompareFolders, PrintOneReportToStdoutInPlaceOfTheTable) {

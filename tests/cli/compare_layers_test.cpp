@@ -1,22 +1,15 @@
 // `lobelia compare` on pictures with layers, alpha and channels of other names.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <algorithm>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <set>
 #include "core/image_io.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 TEST_F(ComparePictures, OneLayerIsComparedByItsName) {
   flat("a.exr", 1,
@@ -163,17 +156,6 @@ TEST_F(ComparePictures, APictureThatOnlyTheReferenceHasFailsAlsoWithoutItsAlpha)
   flat("more.exr", 1, {channel("Z", 1), channel("Q", 1)});
   const Record made = record({"less.exr", "more.exr", "--all-layers", "--ignore-alpha"}, 1);
   EXPECT_EQ(made["layersInOne"]["b"], Record({""}));
-}
-
-TEST_F(ComparePictures, AlphaOfOtherNamesIsThatOfThePicture) {
-  const std::vector<ExrChannel> beauty = {channel("beauty.R", 1), channel("beauty.G", 1),
-                                          channel("beauty.B", 1), channel("beauty.A", 0.5f)};
-  exr("a.exr", 32, 32, beauty);
-  flat("b.exr", 1, {channel("A", 1)});
-  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 1);
-  flat("b.exr", 1, {channel("A", 0.5f)});
-  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 0);
-  EXPECT_EQ(compare({"a.exr", "b.exr", "--all-layers"}).exit_code, 0);
 }
 
 TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsNamedWithout) {

@@ -5,8 +5,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
-namespace fs = std::filesystem;
 
 class CompareMaps : public ComparePictures {
  protected:

@@ -1,15 +1,12 @@
 // `lobelia compare` on picture files made for it.
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/image_io.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/core/picture_files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::fixtures {
 

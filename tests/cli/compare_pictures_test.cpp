@@ -1,22 +1,18 @@
 // `lobelia compare` on files as they come: what it answers to each, and that it always answers.
 #include <ImfTiledOutputFile.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "compare/metrics/catalogue.hpp"
 #include "core/image_io.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 #include "tests/core/picture_files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 

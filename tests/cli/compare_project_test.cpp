@@ -2,7 +2,6 @@
 #include <fmt/chrono.h>
 
 #include <ctime>
-#include <random>
 
 #include "tests/cli/compare_pictures_fixture.hpp"
 
@@ -10,8 +9,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 class CompareProject : public ComparePictures {
  protected:

@@ -1,14 +1,11 @@
 // `lobelia compare` says how the files' values became light.
-#include <gmock/gmock.h>
-
 #include "tests/cli/compare_pictures_fixture.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 class HowPicturesAreRead : public ComparePictures {
  protected:

@@ -5,8 +5,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 /// Grey pictures of 32 x 32 pixels, of which b is brighter on the first 4 x 8 pixels.
 class CompareRegions : public ComparePictures {

@@ -1,16 +1,12 @@
 // lobelia convert, and the page that shows it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <regex>
 
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::StartsWith;
 
 std::string page() { return read_file(LOBELIA_SOURCE_DIR "/docs/convert.md", 1 << 20); }
 

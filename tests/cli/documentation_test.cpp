@@ -1,14 +1,9 @@
 // The pages of docs/ that `lobelia manual --docs` writes.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
-namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) { return read_file(file, std::size_t{1} << 20); }
 

@@ -1,13 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
   const TemporaryDirectory directory;

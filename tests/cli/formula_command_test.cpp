@@ -1,15 +1,11 @@
 // A lobe by its formula, as a user tries one.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/page_commands.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 class TryALobe : public testing::Test {
  protected:

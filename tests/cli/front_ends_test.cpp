@@ -1,11 +1,7 @@
 // One judge: command line, Python, the C++ library and the farm say the same of the same pictures, to the last digit.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "compare/set/choice.hpp"
 #include "core/image_io.hpp"
@@ -15,12 +11,12 @@
 #include "tests/cli/front_end_library.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using Record = nlohmann::json;
 

@@ -1,25 +1,16 @@
 // Hostile and odd pictures, made here, given to every command that reads pictures.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <limits>
-#include <random>
-#include <set>
 
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/core/format_samples.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace fixtures;
 using ::testing::AnyOf;
-using ::testing::HasSubstr;
 
 constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 30;
 

@@ -1,25 +1,21 @@
 // Ctrl-C, SIGTERM and SIGHUP, as the program gets them: real signals at many moments of its work.
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
-#include <map>
-#include <random>
 #include <thread>
 
 #include "core/image_io.hpp"
 #include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 

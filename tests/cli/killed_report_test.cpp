@@ -1,13 +1,10 @@
 // `lobelia compare` that is killed while it writes a report or difference pictures: the same command writes them whole.
 #include <csignal>
-#include <map>
 
 #include "run_lobelia.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 class KilledReport : public ::testing::Test {
  protected:

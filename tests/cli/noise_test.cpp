@@ -1,17 +1,13 @@
 // Pictures with noise, from rendering to a verdict.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "compare/uncertainty/noise_draws.hpp"
 #include "core/image_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 /// Renders the scene with an area light in `directory`.
 void render_area_light(const TemporaryDirectory& directory, const std::string& output,

@@ -1,22 +1,11 @@
 // Engines of the user's own in `lobelia farm`: programs that behave, programs that do not, and pictures that are there already.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <map>
-
 #include "core/text.hpp"
 #include "tests/cli/page_commands.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-namespace fs = std::filesystem;
 
 class OutsideEngines : public testing::Test {
  protected:

@@ -1,9 +1,6 @@
 // The commands of a page: its blocks that begin with ```sh are to be run, in their order and in one directory.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "tests/cli/run_lobelia.hpp"
 
 namespace lobelia {

@@ -1,21 +1,15 @@
 // The commands that README, the tutorials and the how-to pages mark as to be run do run.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <vector>
 
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "tests/cli/page_commands.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using ::testing::IsSupersetOf;
-namespace fs = std::filesystem;
 
 std::vector<std::string> pages_with_commands() {
   std::vector<std::string> pages = {"README.md"};

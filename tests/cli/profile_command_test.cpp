@@ -1,18 +1,11 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <tuple>
 
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 class ProfileCommand : public ::testing::Test {
  protected:
@@ -52,31 +45,6 @@ TEST_F(ProfileCommand, SaysFirstWhatExplainsTheHighlight) {
   EXPECT_THAT(run({"profile", "other.exr", "--scene", oblique_}).output_tail,
               StartsWith("other: this highlight is best explained by exponent 121.00000 +- 0.00012 "
                          "of Blinn-Phong times N.L\n"));
-}
-
-TEST_F(ProfileCommand, FitsTheMeansOfAPictureOfManySamples) {
-  const std::string scene = kScenes + "head_on.xml";
-  ASSERT_EQ(run({"render", scene, "--samples", "256", "-o", "many.exr"}).exit_code, 0);
-  const auto exponent = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"profile", "many.exr", "--scene", scene, "--light", "0"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Json record = record_of(arguments);
-    const Json& figures = record["images"]["many"]["highlight"];
-    const Json& best = figures["explanations"][0];
-    return std::tuple(figures["pixelsShow"].get<std::string>(), best["family"].get<std::string>(),
-                      best["exponent"].get<double>());
-  };
-  // The scene says one sample: the picture tells.
-  for (const std::vector<std::string>& more :
-       {std::vector<std::string>{}, {"--samples", "256"}, {"--filter", "box"}}) {
-    const auto [pixels, family, n] = exponent(more);
-    EXPECT_EQ(pixels, "means");
-    EXPECT_EQ(family, "phong");
-    EXPECT_NEAR(n, 64, 0.005);
-  }
-  const auto [pixels, family, n] = exponent({"--filter", "none"});
-  EXPECT_EQ(pixels, "centres");
-  EXPECT_LT(n, 63.95);
 }
 
 TEST_F(ProfileCommand, MeasuresEveryHighlightOfASceneUnlessOneIsChosen) {
@@ -204,19 +172,6 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
     command.insert(command.begin(), "profile");
     SCOPED_TRACE(testing::PrintToString(arguments));
     expect_one_line(run(command), exit_code, message);
-  }
-}
-
-TEST_F(ProfileCommand, AnswersForBlackAndForOnePixel) {
-  for (const char* size : {"1", "2", "5"}) {
-    ASSERT_EQ(
-        run({"render", oblique_, "--width", size, "--height", size, "-o", "small.exr"}).exit_code,
-        0);
-    EXPECT_EQ(run({"profile", "small.exr"}).exit_code, 0);
-    const auto result =
-        run({"profile", "small.exr", "--scene", oblique_, "--width", size, "--height", size});
-    EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-    EXPECT_THAT(result.output_tail, HasSubstr("no ")) << size;
   }
 }
 

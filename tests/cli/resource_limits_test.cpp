@@ -1,14 +1,9 @@
 // Every command under small limits of memory, threads, files and their size: it does its work, or says what to raise.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kTakesTerabytes = true;  // of address space

@@ -1,17 +1,10 @@
 // Runs the program as a user does.
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

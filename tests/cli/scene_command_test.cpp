@@ -1,13 +1,9 @@
 // lobelia scene, as a user runs it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 class SceneCommand : public testing::Test {
  protected:

@@ -1,15 +1,10 @@
 // lobelia search, and the page that shows it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
-using testing::StartsWith;
 
 class SearchCommand : public testing::Test {
  protected:

@@ -1,23 +1,19 @@
 // Stdin, stdout and stderr that are closed, full, broken or not read, under every command.
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <thread>
 
 #include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A command that says something on stderr, and its exit code.
 struct Command {

@@ -6,8 +6,6 @@
 namespace lobelia {
 namespace {
 
-namespace fs = std::filesystem;
-
 class SystemFaults : public ::testing::Test {
  protected:
   void SetUp() override {

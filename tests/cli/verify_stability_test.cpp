@@ -1,16 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "core/image_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 float brightest(const std::filesystem::path& picture) {
   const Image image = read_image(picture);

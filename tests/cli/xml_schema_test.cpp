@@ -1,9 +1,4 @@
 // The XML Schemas of scene and grid files: every file that the program reads is valid, and common mistakes are not.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <functional>
-
 #include "core/error.hpp"
 #include "farm/grid.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -11,10 +6,10 @@
 #include "tests/house/tree.hpp"
 #include "tests/renderer/random_scene.hpp"
 #include "tests/renderer/scene_text.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-namespace fs = std::filesystem;
 
 const fs::path kSource = LOBELIA_SOURCE_DIR;
 

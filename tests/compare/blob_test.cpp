@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "core/error.hpp"
 #include "tests/compare/spots.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,17 +1,8 @@
 #include "compare/metrics/ciede2000.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "compare/metrics/pixel_differences.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,14 +1,11 @@
 // Regions of highlights to a fraction of a pixel, and the steps of the numbers in a picture's file.
 #include "compare/profile/contour.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "compare/profile/stored_steps.hpp"
 #include "core/colour.hpp"
 #include "core/half.hpp"
 #include "tests/compare/spots.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

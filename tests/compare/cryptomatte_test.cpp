@@ -11,7 +11,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 constexpr std::uint32_t kBall = 0xdeadbeef, kCube = 0x3f00d001, kFloor = 0x00000007;
 

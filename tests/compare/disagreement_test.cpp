@@ -1,17 +1,10 @@
 #include "compare/disagreement.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "compare/metrics/catalogue.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 double share(const char* id, double value, double limit) {
   return share_of_limit(*find_metric_output(id), value, limit);

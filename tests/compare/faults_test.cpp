@@ -1,25 +1,15 @@
 // Faults are named where they were made, in random pictures, and nowhere else.
 #include "compare/faults.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <random>
-
 #include "compare/set/report.hpp"
 #include "core/colour.hpp"
 #include "core/half.hpp"
 #include "core/image_values.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 constexpr int kWidth = 72, kHeight = 56, kPictures = 40;
 

@@ -1,19 +1,13 @@
 // FLIP's errors against the formulas of the paper in float64, on pictures where float32 or a careless order of operations
 // shows: powers of almost nothing and roots of differences that cancel.
-#include <gtest/gtest.h>
 #include <hwy/targets.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <string>
-#include <vector>
 
 #include "compare/display_light.hpp"
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_kernels.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
@@ -286,18 +280,6 @@ TEST(FlipAccuracy, IsAMillionthOnPicturesThatDifferInAFewPlaces) {
         std::to_string(width) + " x " + std::to_string(height) + ", round " + std::to_string(round),
         a, b, distance);
   }
-}
-
-TEST(FlipAccuracy, IsAMillionthAroundOnePixel) {
-  const Image flat = fixtures::flat(41, 33, 0.3f, 0.3f, 0.3f),
-              noise = fixtures::noise(41, 33, 8, 1);
-  for (const Image& a : {flat, noise})
-    for (const auto& [x, y] : {std::pair(0, 0), {20, 16}, {40, 32}, {20, 0}})
-      for (const float change : {0.5f, 1e-3f, 1e-6f, -0.2f}) {
-        Image b = a;
-        for (float& value : b.pixel(x, y)) value += change;
-        expect_accurate("one pixel, " + std::to_string(change), a, b);
-      }
 }
 
 TEST(FlipAccuracy, IsAMillionthOnEdges) {

@@ -1,10 +1,7 @@
 // The standard errors of the highlights of a picture.
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "tests/compare/spots.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,4 @@
 // The highlight is judged by itself: what the black around it hides, and what it must not be blamed for.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "compare/highlight_region.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
@@ -16,11 +9,10 @@
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// As `lobelia compare` has it.
 ComparisonOptions as_by_default() {

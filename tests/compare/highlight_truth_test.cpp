@@ -1,13 +1,9 @@
 // Random pictures of known highlights: the fitted lobe is the true one, within its error bar.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "farm/profile_scene.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,4 @@
 // Each highlight is judged by itself: beside a light of any brightness a changed one is found, and nothing else is.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "compare/compare.hpp"
 #include "compare/highlights/words.hpp"
 #include "compare/metrics/catalogue.hpp"
@@ -14,11 +7,10 @@
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/spots.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr int kTableWidth = 160, kTableHeight = 120;
 

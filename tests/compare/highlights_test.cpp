@@ -1,11 +1,7 @@
 // All highlights of a picture, robust and with standard errors.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "core/error.hpp"
 #include "tests/compare/spots.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,17 +1,12 @@
 // Files with layers, compared layer by layer.
 #pragma once
 
-#include <gmock/gmock.h>
-
-#include <array>
-#include <bit>
-#include <random>
-
 #include "compare/layer_types.hpp"
 #include "compare/layers.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "tests/core/picture_files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::fixtures {
 

@@ -1,10 +1,6 @@
 // Layers that are no colours: how their type is told, and what is measured of each.
 #include "compare/layer_types.hpp"
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "compare/layer_sensitivity.hpp"
 #include "tests/compare/layer_files.hpp"
 #include "tests/compare/pictures.hpp"
@@ -13,7 +9,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
@@ -111,25 +106,6 @@ TEST_F(Identifiers, AreCountedWhereAnyBitDiffers) {
     EXPECT_EQ(value(layer, "identifier.share"), double(differ) / kPixels);
     EXPECT_EQ(layer.verdict(), differ == 0 ? Verdict::kPass : Verdict::kDiffers);
   }
-}
-
-TEST_F(Identifiers, AreCountedAndNamedWhereTheyAreExchanged) {
-  std::vector<std::uint32_t> b(kPixels), a(kPixels);
-  std::size_t differ = 0;
-  std::mt19937 random(4);
-  for (std::size_t i = 0; i < kPixels; ++i) {
-    b[i] = 12 + std::uint32_t(random() % 3);
-    a[i] = b[i] == 12 ? 13 : b[i] == 13 ? 12 : b[i];
-    differ += a[i] != b[i];
-  }
-  for (const bool as_floats : {false, true}) {
-    const LayerComparison layer =
-        compare_channels({channel(a, as_floats)}, {channel(b, as_floats)});
-    EXPECT_EQ(value(layer, "identifier.pixels"), double(differ));
-    EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
-  }
-  EXPECT_THAT(compare_channels({channel(a, false)}, {channel(b, false)}).comparison->finding,
-              HasSubstr("a has 1"));
 }
 
 TEST_F(Identifiers, AreComparedAsNumbersIfTheirTypesDiffer) {

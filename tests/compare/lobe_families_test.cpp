@@ -1,13 +1,8 @@
 // Which family of lobes a highlight belongs to, when camera and light are known.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "compare/profile/lobe_fit.hpp"
 #include "core/constants.hpp"
 #include "core/vec.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

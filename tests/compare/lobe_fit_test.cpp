@@ -1,13 +1,5 @@
 #include "compare/profile/lobe_fit.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

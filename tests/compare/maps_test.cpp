@@ -1,25 +1,17 @@
 // Pictures of differences against the metrics that they spread out, and their colours against the published
 // tables.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-
 #include "compare/compare.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using ::testing::Each;
-using ::testing::ElementsAre;
 
 double mean(std::span<const float> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());

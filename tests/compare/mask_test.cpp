@@ -1,21 +1,14 @@
 // Parts of pictures: the pixels of shapes, the figures of parts, and what is ignored or cut off.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
-
-#include <map>
-#include <random>
 
 #include "compare/layers.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/mask.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
 
 PixelFlags inside(const std::vector<std::string>& shapes, int width, int height) {
   std::vector<MaskShape> parsed;

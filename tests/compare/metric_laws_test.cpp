@@ -1,18 +1,12 @@
 // Laws that every metric of the catalogue keeps: a newly listed metric is tested by these.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
-
-#include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <set>
 
 #include "compare/highlights/find.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/picture_part.hpp"
 #include "core/scratch_memory.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,10 +1,9 @@
 // Draws of the noise that replicates or standard errors tell.
 #include "compare/uncertainty/noise_draws.hpp"
 
-#include <gtest/gtest.h>
-
 #include "core/constants.hpp"
 #include "tests/compare/noisy_pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,22 +1,17 @@
 // Noise in layers of a picture's file, as renderers write them, from samples of a known distribution.
 #include "compare/uncertainty/noise_layers.hpp"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <random>
-
 #include "compare/compare.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/picture_colour.hpp"
 #include "tests/core/picture_files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 constexpr int kSide = 24, kPixels = kSide * kSide;
 constexpr double kRelative = 0.5;  ///< a sample's standard deviation, of its mean

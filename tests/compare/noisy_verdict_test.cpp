@@ -1,10 +1,7 @@
 // Verdicts on pictures with noise: same, different, or undecided.
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "compare/compare.hpp"
 #include "tests/compare/noisy_pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

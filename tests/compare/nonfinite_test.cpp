@@ -1,14 +1,9 @@
 // Values that are not finite: where the first is, and which pictures share them.
 #include "compare/nonfinite.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "compare/compare.hpp"
 #include "compare/layers.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

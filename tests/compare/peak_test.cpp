@@ -1,12 +1,6 @@
 #include "compare/profile/peak.hpp"
 #include "core/constants.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,13 +1,9 @@
 // What is measured on request: 8-bit code values, pixels over a threshold, and lists of metrics.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/code_values.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

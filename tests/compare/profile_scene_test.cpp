@@ -1,10 +1,6 @@
 #include "farm/profile_scene.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
@@ -12,6 +8,7 @@
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/json.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

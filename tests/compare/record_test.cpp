@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,10 +1,4 @@
 // The JSON Schemas of comparisons and profiles against the records that the program writes.
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <limits>
-#include <set>
-
 #include "compare/compare.hpp"
 #include "compare/layers.hpp"
 #include "compare/metrics/catalogue.hpp"
@@ -17,6 +11,7 @@
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/json_schema.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
@@ -116,35 +111,6 @@ TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
   EXPECT_EQ(good["layers"][4]["verdict"], "pass");
 }
 
-TEST(ComparisonSchema, HoldsForValuesThatAreNotFiniteAndTheirPlaces) {
-  Image a = fixtures::highlight(32, 32, 10, 1), b = a;
-  a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
-  b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
-  Comparison comparison = compare(a, b, {});
-  comparison.nonfinite.equal_allowed = 7;
-  const records::Comparison made = comparison_record(comparison, "a", "b");
-  EXPECT_EQ(schema_problems(made), "");
-  const Plain good = as_written(made);
-  EXPECT_EQ(good["nonfinite"]["first"]["a"],
-            Plain({{"x", 3}, {"y", 4}, {"channel", "G"}, {"value", "inf"}}));
-  EXPECT_EQ(good["nonfinite"]["first"]["b"],
-            Plain({{"x", 5}, {"y", 6}, {"channel", "B"}, {"value", "nan"}}));
-  EXPECT_EQ(good["nonfinite"]["equalAllowed"], 7);
-}
-
-TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
-  const Image a = fixtures::highlight(32, 32, 10, 1), c = fixtures::highlight(32, 32, 11, 1);
-  Image broken = c;
-  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
-  for (const Image* second : {&a, &c, static_cast<const Image*>(&broken)}) {
-    Comparison comparison = compare(a, c, {});
-    comparison.reference_floor = measure_reference_floor(*second, c, {});
-    const records::Comparison made = comparison_record(comparison, "a", "b", "c.exr");
-    EXPECT_EQ(schema_problems(made), "");
-    EXPECT_EQ(made.reference_floor->c, "c.exr");
-  }
-}
-
 /// A pair that is compared, and one that cannot be.
 records::ComparisonSet record_of_set() {
   const Image a = fixtures::highlight(32, 32, 10, 1), b = fixtures::highlight(32, 32, 11, 1);
@@ -180,17 +146,6 @@ TEST(ProfileSchema, HoldsForProfilesOfEveryKindOfPicture) {
   EXPECT_TRUE(records::find(profile.images, "a")->highlight->cosine_lobe.exponent)
       << "a record in which little is missing";
   EXPECT_EQ(schema_problems(records::Profiles{{profile}}), "");
-}
-
-TEST(ProfileSchema, HoldsForBlobsOfEveryKindOfPicture) {
-  const Scene scene = scene_with("phong_rdf", 64);
-  const Image good = render(scene, RenderOptions{}).image;
-  const int width = scene.film.width, height = scene.film.height;
-  const Image black(width, height), holes = broken(width, height);
-  for (const Image* a : {&good, &black, &holes})
-    for (const Image* b : {&good, &black, &holes})
-      EXPECT_EQ(schema_problems(blobs_record(measure_blobs({{"a", a}, {"b", b}}, {}), 0.1)), "");
-  EXPECT_EQ(schema_problems(blob_record(measure_blobs({{"a", &good}}, {}).highlights[0])), "");
 }
 
 TEST(MetricsDocument, IsWhatTheProgramPrints) {

@@ -1,22 +1,15 @@
 // What becomes of a set of pictures, and the files that tell it.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <pugixml.hpp>
 
 #include "compare/set/report.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 PairReport compared(const std::string& name, float value_a, float value_b) {
   const Image a = fixtures::flat(20, 20, value_a, value_a, value_a);

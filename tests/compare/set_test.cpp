@@ -1,19 +1,10 @@
 // Folders of pictures: pairing by name.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "compare/set/pairing.hpp"
 #include "core/files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class FolderPairing : public ::testing::Test {
  protected:

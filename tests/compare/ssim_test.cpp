@@ -1,11 +1,8 @@
 // SSIM and MS-SSIM against the formulas as double loops over windows.
-#include <gtest/gtest.h>
-
-#include <array>
-
 #include "compare/compare.hpp"
 #include "compare/metrics/ssim_windows.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

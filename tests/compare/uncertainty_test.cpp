@@ -1,10 +1,7 @@
 // What is found of two pictures with noise, and what their error bars hold.
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <boost/math/distributions/binomial.hpp>
-#include <limits>
-#include <map>
 
 #include "compare/compare.hpp"
 #include "compare/uncertainty/critical.hpp"
@@ -13,6 +10,7 @@
 #include "core/error.hpp"
 #include "tests/compare/noisy_pictures.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

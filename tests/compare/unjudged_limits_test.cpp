@@ -1,8 +1,6 @@
 // Limits on layers of which none was compared are mistakes, and are said.
 #include "compare/set/unjudged_limits.hpp"
 
-#include <filesystem>
-
 #include "compare/set/run.hpp"
 #include "tests/compare/layer_files.hpp"
 
@@ -10,7 +8,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 class UnjudgedLimits : public LayerFiles {
  protected:

@@ -1,8 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "compare/compare.hpp"
@@ -11,11 +6,10 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr float kFloatNaN = std::numeric_limits<float>::quiet_NaN();
 

@@ -1,9 +1,5 @@
 #include "core/colour.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -4,8 +4,6 @@
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <signal.h>
 #include <sys/ptrace.h>
@@ -16,8 +14,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cmath>
-#include <fstream>
 #include <thread>
 
 #include "core/interrupt.hpp"
@@ -28,14 +24,13 @@
 #include "lobelia_paths.hpp"
 #include "tests/core/format_samples.hpp"
 #include "tests/core/picture_fixture.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 using ContainedReader = PictureFiles;
 

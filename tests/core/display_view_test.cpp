@@ -1,19 +1,12 @@
 // Displays by OpenColorIO: a configuration of which every value can be computed by hand.
 #include "core/colour.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-
 #include "core/files.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::HasSubstr;
 
 // One display that says what light it gives (a power of 2 onto XYZ, so that decoding is a square), with a plain
 // view and one that halves; and one of the old kind, whose views are spaces of the scene.

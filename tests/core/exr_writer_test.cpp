@@ -1,22 +1,17 @@
 #include "core/exr_writer.hpp"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <barrier>
-#include <bit>
-#include <random>
 #include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/threads.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Half of it smooth, half of it noise of every exponent, which no packing makes smaller.
 Image picture(int width, int height) {

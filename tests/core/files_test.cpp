@@ -2,31 +2,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
-#include <cstdlib>
-#include <random>
 #include <thread>
-#include <tuple>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::size_t entries(const fs::path& directory) {
   return std::size_t(std::distance(fs::directory_iterator(directory), fs::directory_iterator()));

@@ -1,15 +1,11 @@
 // A power cut loses no finished file: content is flushed before a file gets its name and before anyone is told.
-#include <gmock/gmock.h>
-
 #include "core/files.hpp"
 #include "core/group_flush.hpp"
 #include "tests/core/unflushed_names.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::IsEmpty;
-namespace fs = std::filesystem;
 
 TEST(FlushOrder, AFileIsFlushedBeforeItGetsItsName) {
   const TemporaryDirectory directory;

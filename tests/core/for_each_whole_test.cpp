@@ -1,15 +1,12 @@
 #include "core/for_each_whole.hpp"
+#include "tests/test.hpp"
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace lobelia {
 namespace {

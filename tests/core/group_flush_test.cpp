@@ -1,15 +1,12 @@
 #include "core/group_flush.hpp"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 
 #include "core/error.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Writes a file as others do that a group flushes.
 fs::path written(const GroupFlush& flush, const fs::path& path) {

@@ -1,12 +1,9 @@
 // Half floats against the compiler's own, the processor's conversions and OpenEXR's.
-#include <gtest/gtest.h>
 #include <half.h>
 #include <immintrin.h>
 
-#include <random>
-#include <vector>
-
 #include "core/half.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,8 @@
 // Pictures for better displays: JPEGs with gain maps, made byte by byte, and PNGs with PQ and HLG.
-#include <gmock/gmock.h>
-
-#include <cmath>
-
 #include "core/image_io.hpp"
 #include "core/picture_colour.hpp"
 #include "tests/core/picture_fixture.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

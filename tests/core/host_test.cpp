@@ -1,11 +1,10 @@
 #include "core/host.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cerrno>
 #include <system_error>
 
 #include "core/no_resources.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

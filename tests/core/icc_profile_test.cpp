@@ -1,21 +1,16 @@
 // Profiles made byte by byte (ICC.1:2022) or by LittleCMS, against the matrices of published primaries.
-#include <gmock/gmock.h>
 #include <lcms2.h>
 #include <zlib.h>
-
-#include <cmath>
-#include <functional>
-#include <random>
 
 #include "core/colour.hpp"
 #include "core/picture_colour.hpp"
 #include "tests/core/picture_fixture.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 std::string fixed(double value) { return big_endian(std::uint32_t(std::lround(value * 65536))); }
 

@@ -1,13 +1,8 @@
 #include "core/image_io.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <random>
-
 #include "core/files.hpp"
 #include "core/png_writer.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,25 +1,17 @@
 #include "core/leave.hpp"
 
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
 #include <atomic>
-#include <cstdlib>
-#include <string>
 #include <thread>
-#include <utility>
 
 #include "core/error.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class LeaveTest : public testing::Test {
  protected:

@@ -2,9 +2,6 @@
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 
-#include <cmath>
-#include <random>
-
 #include "core/picture_light.hpp"
 #include "tests/core/picture_fixture.hpp"
 
@@ -12,8 +9,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const Imf::Chromaticities kXyzOfOpenExr({1, 0}, {0, 1}, {0, 0}, {1 / 3.0f, 1 / 3.0f});
 

@@ -1,10 +1,7 @@
 #include "core/numbers.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "core/svg_chart.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,10 +1,6 @@
 // Pictures that are stored mirrored or turned are shown upright.
 #include "core/orientation.hpp"
 
-#include <algorithm>
-#include <array>
-#include <random>
-
 #include "core/image_io_module.hpp"
 #include "core/png_module.hpp"
 #include "tests/core/format_samples.hpp"
@@ -14,8 +10,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 /// Pixels of any size, row by row.
 struct Pixels {

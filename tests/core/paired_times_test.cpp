@@ -1,9 +1,6 @@
 // A change of speed that is found, and noise that is not.
 #include "core/paired_times.hpp"
-
-#include <gtest/gtest.h>
-
-#include <random>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

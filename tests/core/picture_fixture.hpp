@@ -1,12 +1,10 @@
 // Picture files in a directory of their own, read or refused.
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "tests/core/picture_files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::fixtures {
 

@@ -1,19 +1,9 @@
 #include "core/picture_layers.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
-#include <set>
 
 namespace lobelia {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::vector<std::string> names(const std::vector<PicturePart>& parts) {
   std::vector<std::string> result;

@@ -3,20 +3,17 @@
 #include <ImfDeepScanLineOutputPart.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <algorithm>
 #include "core/image_io.hpp"
 #include "core/picture_file.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/core/picture_fixture.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::HasSubstr;
 
 using Refusals = PictureFiles;
 

@@ -1,24 +1,17 @@
 // The meaning of a file's values, by files made for that.
 #include <ImfEnvmap.h>
 #include <ImfTiledOutputFile.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
 
 #include "core/image_io.hpp"
 #include "core/picture.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/core/picture_fixture.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const double kMiddle = 0.2158605;  // sRGB's 128 of 255 as light, IEC 61966-2-1
 

@@ -6,11 +6,6 @@
 #include <ImfOutputFile.h>
 #include <zlib.h>
 
-#include <cstring>
-#include <limits>
-#include <random>
-#include <utility>
-
 #include "core/picture_message.hpp"
 #include "core/png_module.hpp"
 #include "tests/core/picture_fixture.hpp"

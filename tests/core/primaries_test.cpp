@@ -1,14 +1,10 @@
 // Primaries of files against OpenEXR's own matrices.
 #include "core/constants.hpp"
 #include "core/picture_colour.hpp"
+#include "tests/test.hpp"
 
 #include <ImathMatrix.h>
 #include <ImfChromaticities.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace lobelia {
 namespace {

@@ -2,15 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
-#include <functional>
 #include <future>
 
 #include "core/error.hpp"
@@ -20,6 +16,7 @@
 #include "core/keeper_protocol.hpp"
 #include "core/spawn.hpp"
 #include "core/write_limit.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {

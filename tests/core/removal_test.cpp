@@ -2,8 +2,6 @@
 #include "core/removal.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/file.h>
 #include <sys/mount.h>
@@ -12,21 +10,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <fstream>
-#include <random>
 #include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 class RemovalTest : public testing::Test {
  protected:

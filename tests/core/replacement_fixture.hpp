@@ -2,26 +2,19 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/replacement.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 /// replacement_faults.cpp stands between this program and the C library, and counts the calls that change files.
+
 namespace lobelia::faults {
 
 enum class Kind {
@@ -55,7 +48,6 @@ namespace lobelia::fixtures {
 
 using faults::Fault;
 using faults::Kind;
-namespace fs = std::filesystem;
 
 using Texts = std::map<std::string, std::string>;  ///< by path
 

@@ -9,8 +9,6 @@ namespace {
 using namespace fixtures;
 using testing::AnyOf;
 using testing::Eq;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class ReplacementTest : public Replacements {};
 

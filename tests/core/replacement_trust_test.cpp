@@ -7,8 +7,6 @@ namespace lobelia {
 namespace {
 
 using namespace fixtures;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 class ReplacementTrust : public Replacements {};
 

@@ -1,18 +1,10 @@
 #include "core/scratch_memory.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <cstdlib>
-#include <fstream>
-#include <optional>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "core/files.hpp"
 #include "core/image.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

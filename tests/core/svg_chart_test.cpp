@@ -1,16 +1,12 @@
 #include "core/svg_chart.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <pugixml.hpp>
 #include <regex>
-#include <set>
 
 #include "core/files.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,8 +1,5 @@
 #include "core/text.hpp"
-
-#include <gtest/gtest.h>
-
-#include <random>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -4,18 +4,15 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <mutex>
-#include <set>
-#include <string>
-#include <vector>
+
+#include "tests/test.hpp"
 
 namespace lobelia::unflushed {
 

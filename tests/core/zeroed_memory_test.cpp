@@ -1,10 +1,5 @@
 #include "core/image.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <vector>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

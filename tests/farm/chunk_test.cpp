@@ -1,14 +1,11 @@
 #include "farm/chunk.hpp"
 
-#include <gmock/gmock.h>
-
 #include "farm_fixture.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 const Leave kLeave = Leave::of_user(true);
 constexpr char kPictures[] = "*render:*reference*", kTheRest[] = "*compare*:*profile";

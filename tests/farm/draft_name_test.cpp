@@ -1,7 +1,6 @@
 // Makers of drafts and shared locks, as far as one machine can decide.
 #include "farm/cache_layout.hpp"
 
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -9,11 +8,10 @@
 
 #include "core/files.hpp"
 #include "farm/result_cache.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 DraftName of(const ProcessIdentity& maker, std::uint64_t inode = 7) { return {maker, inode, 42}; }
 

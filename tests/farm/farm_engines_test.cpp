@@ -1,6 +1,4 @@
 // The farm with the real engines.
-#include <algorithm>
-
 #include "compare/compare.hpp"
 #include "core/image_io.hpp"
 #include "farm/make_result.hpp"
@@ -12,8 +10,6 @@
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 class FarmWithEngines : public FarmTest {
  protected:

@@ -2,15 +2,12 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
 
 #include "core/files.hpp"
 #include "farm/farm.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

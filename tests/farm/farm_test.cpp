@@ -1,19 +1,14 @@
-#include <gmock/gmock.h>
-
-#include <set>
-
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm_fixture.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// An empty $PATH, for as long as it lives.
 class WithoutPrograms {

@@ -1,7 +1,6 @@
-#include <gmock/gmock.h>
-
 #include "farm_fixture.hpp"
 #include "tests/core/unflushed_names.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,18 +1,13 @@
 // Which cells a grid has, and what each shows.
-#include <gmock/gmock.h>
 #include <oneapi/tbb/parallel_for.h>
-
-#include <map>
-#include <set>
 
 #include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/farm/grid_text.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::ElementsAre;
 
 const std::string kTwoByThree =
     kScene + axis("model", "phong_rdf, blinn_phong_ndf") + axis("exponent", "16, 128, 1024");

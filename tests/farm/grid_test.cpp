@@ -1,11 +1,8 @@
-#include <gmock/gmock.h>
-
-#include <set>
-
 #include "core/image_io.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/farm/grid_text.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

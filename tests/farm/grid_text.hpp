@@ -1,15 +1,11 @@
 // Grid files from the text of their elements.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "farm/grid.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

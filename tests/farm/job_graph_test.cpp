@@ -1,7 +1,5 @@
 #include "farm/job_graph.hpp"
 
-#include <set>
-
 #include "farm/job_board.hpp"
 #include "farm_fixture.hpp"
 

@@ -1,19 +1,15 @@
 #include "farm/result_cache.hpp"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <latch>
 #include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 records::Result a_result() {
   records::Result result;

@@ -1,18 +1,14 @@
 #include "farm/upkeep.hpp"
 
-#include <gmock/gmock.h>
-
 #include "core/error.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
 #include "farm_fixture.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class UpkeepTest : public FarmTest {
  protected:

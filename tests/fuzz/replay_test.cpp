@@ -1,10 +1,4 @@
 // The corpora of `make fuzz` through the fuzzers' own checks, and small changes to each seed.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <random>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -15,11 +9,10 @@
 #include "lobelia_paths.hpp"
 #include "reference_scenes/formats/mitsuba.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::fuzz {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::vector<fs::path> seeds(const std::string& corpus) {
   std::vector<fs::path> found;

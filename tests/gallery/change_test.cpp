@@ -1,12 +1,6 @@
 // What changed since an earlier run: the rule, and the pages.
 #include "gallery/change.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "gallery/gallery.hpp"
@@ -16,15 +10,10 @@
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-namespace fs = std::filesystem;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 

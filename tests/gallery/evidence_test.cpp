@@ -1,13 +1,5 @@
 // A gallery shows "pass" only of pictures and records that are as the farm wrote them.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <limits>
-#include <random>
 #include <regex>
-#include <set>
 
 #include "core/image_io.hpp"
 #include "core/text.hpp"
@@ -17,15 +9,10 @@
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-namespace fs = std::filesystem;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 constexpr std::uint64_t kMostBytes = 1 << 24;
 

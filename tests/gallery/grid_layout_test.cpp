@@ -1,6 +1,5 @@
 #include "gallery/grid_layout.hpp"
-
-#include <gtest/gtest.h>
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {

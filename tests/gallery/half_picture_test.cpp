@@ -1,15 +1,10 @@
 // Float pictures as text: what is read back is what was written, to the bits that were kept.
 #include "gallery/half_picture.hpp"
 
-#include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-
 #include "tests/gallery/site.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {

@@ -1,10 +1,5 @@
 // Records are input like any other: a gallery is made of a directory that somebody sent. Grids vary scenes by the names of
 // files, which may be anything.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "core/constants.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -16,14 +11,10 @@
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 const std::string kHostile = R"(<script>alert(1)</script>"><img src=x onerror='alert(2)'>&amp;)";
 

@@ -1,10 +1,6 @@
 // Pictures that a gallery makes: which maps a site has and when they are made, and what a thumbnail shows of ours.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <cerrno>
-#include <filesystem>
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
@@ -14,12 +10,10 @@
 #include "gallery/gallery.hpp"
 #include "records/comparison.hpp"
 #include "tests/gallery/fake_farm.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 Image flat(int width, int height, float value) {
   Image image(width, height);

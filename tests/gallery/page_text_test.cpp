@@ -1,9 +1,8 @@
 // Texts of records as pages show them.
 #include "gallery/page_text.hpp"
 
-#include <gtest/gtest.h>
-
 #include "gallery/page.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {

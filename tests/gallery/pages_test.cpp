@@ -1,8 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
 #include "lobelia_paths.hpp"
@@ -10,13 +5,10 @@
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 TEST(GalleryPages, HaveAPageForEveryCellAndNoDeadLink) {
   const FakeFarm farm;
@@ -30,13 +22,6 @@ TEST(GalleryPages, HaveAPageForEveryCellAndNoDeadLink) {
        {FakeFarm::kPass, FakeFarm::kDiffers, FakeFarm::kFailed, FakeFarm::kMissing}) {
     EXPECT_EQ(site.cell(id).select_nodes("//h1").size(), 1u) << id;
   }
-}
-
-TEST(GalleryPages, ShowThatThisSuiteFindsDeadLinks) {
-  const FakeFarm farm;
-  write_gallery(farm.directory());
-  std::filesystem::remove(farm.cell_directory(FakeFarm::kPass) / "povray.exr");
-  EXPECT_THAT(Site(farm.directory()).bad_links(), Not(IsEmpty()));
 }
 
 TEST(GalleryPages, TakeNothingFromANetwork) {

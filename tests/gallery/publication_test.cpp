@@ -2,14 +2,9 @@
 #include "gallery/publication.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
-
-#include <fstream>
-#include <set>
 
 #include "core/base64.hpp"
 #include "core/error.hpp"
@@ -21,15 +16,12 @@
 #include "records/render.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
 using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-namespace fs = std::filesystem;
 
 const std::string kPlace = "/srv/telltale place/of_me", kHost = "telltale-node7",
                   kUser = "telltale.user";
@@ -208,19 +200,6 @@ TEST(Publication, IsTheSameBytesForTheSameRun) {
   }
   EXPECT_EQ(bytes[0], bytes[1]);
   write_publication(farm.directory(), options);  // its own may be replaced
-}
-
-TEST(Publication, SaysWhatWritesAZip) {
-  const FakeFarm farm;
-  GalleryOptions options;
-  options.site = "site.ZIP";
-  try {
-    write_publication(farm.directory(), options);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_THAT(error.what(), HasSubstr("zip -r site.ZIP FOLDER"));
-  }
 }
 
 TEST(Publication, RefusesADirectoryThatIsNotItsOwn) {

@@ -1,19 +1,12 @@
 // What a cell's page and the index say in words.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <tuple>
-
 #include "gallery/cell_page.hpp"
 #include "gallery/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 CheckedComparison compared(double worst) {
   CheckedComparison comparison;

@@ -1,24 +1,14 @@
 // The pages of cost, cheapest lobes and speed, from records that anybody may have written.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <limits>
-
 #include "gallery/gallery.hpp"
 #include "records/bench.hpp"
 #include "records/cost.hpp"
 #include "records/lobe_search.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 class StudyPage : public ::testing::Test {
  protected:

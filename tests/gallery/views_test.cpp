@@ -1,26 +1,17 @@
 // The views of one record each, from records that anybody may have written.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-
+#include "gallery/views.hpp"
 #include "core/constants.hpp"
 #include "gallery/gallery.hpp"
-#include "gallery/views.hpp"
 #include "records/models.hpp"
 #include "records/paper.hpp"
 #include "records/stability.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 const std::string kHostileTitle = "<img src=x onerror=alert(1)>";
 

@@ -1,19 +1,14 @@
 // Adds a throw-away lobe, model, metric, light, effect, engine, view and command to a copy of the tree, by exactly the
 // files that CONTRIBUTING.md names, builds it and sees each of them work. What is added is a copy of a neighbour under
 // another name, so that this test need not know the interfaces.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <regex>
-#include <set>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Text in place of text, in a file that is copied or in one that gets a line more.
 using Renames = std::vector<std::pair<std::string, std::string>>;

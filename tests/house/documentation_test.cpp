@@ -1,21 +1,15 @@
 // The pages: what they say of the source, where every link and anchor leads, the index of docs/, the beginning of README, and
 // the site that `make docs` makes of them.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cctype>
 #include <regex>
-#include <set>
-#include <sstream>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using Problems = std::vector<std::string>;
 

@@ -1,17 +1,14 @@
 // scripts/gallery with a program that only writes down how it was called.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
 
 using ::testing::EndsWith;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 class GalleryScript : public ::testing::Test {
  protected:

@@ -1,19 +1,13 @@
 // core/leave.hpp is the gate for what files of others say. Whoever gives leave, starts a program, or opens a file where
 // names may come from such a file is in a list here, with the reason why it needs no gate or has passed it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <regex>
-#include <set>
 
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using ::testing::StartsWith;
 using Problems = std::vector<std::string>;
 
 /// The lines by which a file may pass the gate.

@@ -1,20 +1,14 @@
 // SECURITY.md has one table of what may start, read and write what, with the files of the source that do it. A new way to
 // start a program, or to open or change a file, is a row there before it is merged.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <map>
 #include <regex>
-#include <set>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
 
 /// "core/files.cpp: rename"

@@ -1,21 +1,11 @@
 // scripts/setup against a made-up system: a $PATH with nothing on it but a few plain tools and
 // fakes of dpkg-query, apt-get, sudo and id that only write down how they were called.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 class Setup : public ::testing::Test {
  protected:

@@ -1,21 +1,14 @@
 // Rules of the house that no compiler checks. Each check is a function of a tree and returns what
 // is wrong with it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <regex>
-#include <set>
-#include <sstream>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using Problems = std::vector<std::string>;
 
 // ---- arrows between rooms

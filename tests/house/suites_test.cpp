@@ -1,20 +1,14 @@
 // tests/suites.txt and scripts/change: which tests are long, and which of them a change calls for.
 #include <fnmatch.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <regex>
-#include <set>
-#include <sstream>
 
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 struct LongTests {
   std::string program, tests, group, why;

@@ -1,25 +1,23 @@
 // Reading the source tree, and running programs in folders made for that.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "lobelia_paths.hpp"
+#include "tests/test.hpp"
 
 namespace house {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
 
 inline const fs::path kRoot = LOBELIA_SOURCE_DIR;
 

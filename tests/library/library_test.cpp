@@ -1,9 +1,6 @@
 // The public library returns what the rooms compute. tests/packages/library_test.cpp tests an installed library.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "lobelia/lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

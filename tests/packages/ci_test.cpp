@@ -1,9 +1,8 @@
 // Templates for machines that the tests do not have: the script inside, and the shape of the files around it.
-#include <gmock/gmock.h>
-
 #include <regex>
 
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {

@@ -1,8 +1,8 @@
 // The Debian packages: made by CPack, looked at by lintian, and installed, run and purged below a directory of the test.
-#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {

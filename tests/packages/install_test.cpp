@@ -1,7 +1,6 @@
 // `cmake --install`, `make install` and `make uninstall`.
-#include <gmock/gmock.h>
-
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {

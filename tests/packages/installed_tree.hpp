@@ -1,11 +1,6 @@
 // The built tree, installed in a directory with a blank and then moved, as a user may do.
 #pragma once
 
-#include <algorithm>
-#include <cstdlib>
-#include <string>
-#include <vector>
-
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
 

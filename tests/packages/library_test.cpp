@@ -1,9 +1,8 @@
 // The public library, as a project elsewhere sees it: the installed tree, CMake and pkg-config.
-#include <gmock/gmock.h>
-
 #include <regex>
 
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {

@@ -1,10 +1,8 @@
 // Man pages and completions, by man itself and by the shells.
-#include <gmock/gmock.h>
-
 #include <regex>
-#include <set>
 
 #include "tests/packages/installed_tree.hpp"
+#include "tests/test.hpp"
 
 namespace packages {
 namespace {

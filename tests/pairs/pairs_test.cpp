@@ -1,11 +1,9 @@
 // The pairs in this folder through the program, at its default limits.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "lobelia_paths.hpp"
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

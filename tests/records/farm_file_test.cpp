@@ -1,16 +1,11 @@
 #include "records/farm_file.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "core/error.hpp"
 #include "records/record.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::records {
 namespace {
-
-namespace fs = std::filesystem;
 
 FarmCell some_cell(std::size_t i) {
   FarmCell cell{"n" + std::to_string(i), i % 2 ? "pass" : "missing", {}};

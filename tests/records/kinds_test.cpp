@@ -1,18 +1,11 @@
 // Laws that hold of every kind of record, on records at random that its schema allows.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-#include <set>
-#include <string>
-
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "lobelia_paths.hpp"
 #include "records/catalogue.hpp"
 #include "tests/json_schema.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::records {
 namespace {

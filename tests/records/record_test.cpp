@@ -1,18 +1,10 @@
 #include "records/record.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "records/result.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::records {
 

@@ -1,6 +1,5 @@
 // The real POV-Ray and the real Blender against our renderer, pixel by pixel.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "reference_scenes/engine.hpp"
 #include "renderer/render.hpp"
@@ -8,6 +7,7 @@
 #include "tests/reference_scenes/render_all.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

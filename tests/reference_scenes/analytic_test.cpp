@@ -2,8 +2,6 @@
 #include "reference_scenes/engines/analytic/analytic.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/files.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
@@ -11,11 +9,10 @@
 #include "renderer/scene/scene_io.hpp"
 #include "studies/stability/cases.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr HighlightChoice kChoice{"modified_phong", "cs16", "exact", 64};
 

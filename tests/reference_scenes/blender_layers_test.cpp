@@ -1,17 +1,15 @@
 // The layers of a multilayer EXR that Blender itself writes.
-#include <gmock/gmock.h>
-
 #include "core/contained_reader.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
 
 using testing::Contains;
-using testing::HasSubstr;
 
 /// Blender's own first scene.
 constexpr const char* kScript = R"(

@@ -1,20 +1,12 @@
 // `lobelia reference` as a user meets it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class ReferenceCommand : public testing::Test {
  protected:

@@ -1,22 +1,13 @@
 // `lobelia engines` as a user meets it, with engines played by shell scripts.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <map>
-
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
 
 class EnginesCommand : public testing::Test {
  protected:

@@ -4,10 +4,6 @@
 #include "core/constants.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
@@ -16,6 +12,7 @@
 #include "tests/canonical_scene.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

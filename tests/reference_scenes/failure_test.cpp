@@ -1,15 +1,7 @@
 // Engines that are missing, crash, hang or lie, played by shell scripts.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
-#include <filesystem>
 #include <future>
-#include <map>
-#include <random>
-#include <set>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -19,12 +11,10 @@
 #include "reference_scenes/engine_program.hpp"
 #include "tests/reference_scenes/render_all.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class FakeEngine : public testing::TestWithParam<std::string> {
  protected:

@@ -1,20 +1,17 @@
 #include "reference_scenes/content.hpp"
 
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/sha256.hpp"
 #include "records/record.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 class FileHashesTest : public testing::Test {
  protected:

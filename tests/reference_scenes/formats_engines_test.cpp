@@ -1,9 +1,4 @@
 // Scenes that are written for Blender, given to the real one.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/process.hpp"
@@ -13,6 +8,7 @@
 #include "tests/canonical_scene.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

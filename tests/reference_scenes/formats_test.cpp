@@ -2,11 +2,6 @@
 #include "reference_scenes/formats/catalogue.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "core/image.hpp"
 #include "records/scene.hpp"
@@ -15,6 +10,7 @@
 #include "tests/json.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,4 @@
 // Input of the engines: numbers in full, and nothing that a person typed.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <limits>
 #include <regex>
 
 #include "core/error.hpp"
@@ -21,14 +14,11 @@
 #include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr HighlightChoice kExpressed{"modified_blinn_phong", "cs16", "exact", 64};
 constexpr HighlightChoice kNative{"phong_rdf", "cosine", "exact", 64};

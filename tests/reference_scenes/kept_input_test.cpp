@@ -1,9 +1,5 @@
 // The kept input of an engine, given to the real engine by the kept command alone.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
 
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -13,11 +9,10 @@
 #include "reference_scenes/preparation.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 class KeptInput : public WithRealEngine {
  protected:

@@ -2,8 +2,6 @@
 #include "reference_scenes/formats/mitsuba.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -12,13 +10,11 @@
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 const SceneFormat& mitsuba() { return scene_format("mitsuba"); }
 std::string written(const Scene& scene) { return mitsuba().write(scene).at("scene.xml"); }

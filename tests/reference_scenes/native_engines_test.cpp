@@ -1,10 +1,6 @@
 // Engines with highlights of their own against the formulas: each within its floor, so that the convention of each is pinned,
 // and near enough to find a thousandth in a coefficient.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <map>
 
 #include "core/files.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
@@ -12,11 +8,10 @@
 #include "tests/reference_scenes/render_all.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr int kSize = 96;
 constexpr double kAngles[] = {0, 45, 80, 120};

@@ -1,21 +1,14 @@
 // Pictures that are there already, as an engine: which are hashed for their keys, and which are not read at all.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <tuple>
-
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
 #include "reference_scenes/content.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/outside/outside.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 constexpr char kExr[] = "\x76\x2f\x31\x01";
 constexpr auto kLong = std::chrono::minutes(10);

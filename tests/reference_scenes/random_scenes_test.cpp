@@ -1,17 +1,13 @@
 // The renderer against formulas that share none of its code, on scenes at random; and each precision against
 // the bound that is stated of it.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"
 #include "renderer/render.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,10 @@
 // The average of scenes without a lens, lights with a size and several rays a pixel is the scene with them.
 #include "reference_scenes/replicates.hpp"
 
-#include <gtest/gtest.h>
-
 #include "tests/more_samples.hpp"
 #include "tests/reference_scenes/ourselves.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -3,14 +3,11 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
-#include <string>
-#include <string_view>
 
 #include "reference_scenes/engine.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

@@ -2,11 +2,8 @@
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "core/constants.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "renderer/render.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,10 +1,7 @@
 #include "renderer/accelerator.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "renderer/chord.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,5 @@
 // Several rays a pixel: by each filter without bias, and only where they are needed.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
 
 #include "core/constants.hpp"
 #include "core/files.hpp"
@@ -16,6 +10,7 @@
 #include "renderer/render.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,15 +1,9 @@
 // Whether pictures with noise agree: a z-test of blocks of pixels.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
 #include "core/image.hpp"
 #include "renderer/render.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

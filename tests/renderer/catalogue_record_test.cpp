@@ -1,11 +1,7 @@
 // The catalogue as `lobelia models --json` has it.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "renderer/catalogue_record.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,10 @@
 // Each effect against itself with everything forced.
-#include <gtest/gtest.h>
-
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

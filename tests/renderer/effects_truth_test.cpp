@@ -1,13 +1,9 @@
 // Single effects, held to what is known of them: irradiance in closed form, the white furnace, lenses and mirrors.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/constants.hpp"
 #include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,8 +1,5 @@
 #include "renderer/filter_nodes.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,11 +1,8 @@
 // FilterSampler draws from what it says it draws from.
 #include "renderer/filter.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "renderer/filters/catalogue.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

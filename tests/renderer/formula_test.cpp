@@ -1,12 +1,9 @@
 #include "renderer/formula.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <random>
 
 #include "tests/renderer/infix.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,14 +1,9 @@
 // The laws of GGX: its shadowing is the textbook's, light is not directed one way, and none of it loses digits.
 #include "renderer/ggx.hpp"
+#include "tests/test.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
 
 namespace lobelia {
 namespace {

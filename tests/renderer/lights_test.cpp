@@ -1,8 +1,4 @@
 // Draws from lights with a size, against what a ray meets of them.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 #include <memory>
 
 #include "core/constants.hpp"
@@ -10,6 +6,7 @@
 #include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

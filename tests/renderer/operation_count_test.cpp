@@ -1,7 +1,6 @@
 // The arithmetic of lobes and models, against a count by hand.
-#include <gtest/gtest.h>
-
 #include "renderer/operation_count.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,15 +1,11 @@
 #include "renderer/plan/plan.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,20 +1,14 @@
 #include "tests/renderer/random_scene.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <vector>
 
 #include "core/exr_writer.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

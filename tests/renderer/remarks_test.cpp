@@ -1,18 +1,10 @@
 #include "renderer/scene/scene.hpp"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 Scene plain() {
   Scene scene = one_sphere(shiny(16));

@@ -1,15 +1,12 @@
 #include "renderer/render.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 
 #include "core/threads.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

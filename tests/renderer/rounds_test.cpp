@@ -1,9 +1,6 @@
 // Renders that stop: at an error, at a time, at a number of samples.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -3,10 +3,6 @@
 #include <stdio.h>
 
 #include <atomic>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <thread>
 
 #include "core/files.hpp"
@@ -15,9 +11,6 @@
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 std::string emitter(const std::string& type, const std::string& body) {
   return "<emitter type=\"" + type + "\">" + body + "</emitter>";

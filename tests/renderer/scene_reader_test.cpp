@@ -1,7 +1,3 @@
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include "lobelia_paths.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "tests/renderer/scene_text.hpp"

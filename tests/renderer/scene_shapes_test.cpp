@@ -1,13 +1,9 @@
-#include <algorithm>
-
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
 #include "tests/renderer/scene_text.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 std::string shape(const std::string& type, const std::string& body,
                   const std::string& material = "<ref id=\"m\"/>") {

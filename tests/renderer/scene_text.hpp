@@ -1,14 +1,10 @@
 // Scene files for tests of the reader: a frame around what a test is about, and the error of one.
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "core/error.hpp"
 #include "fuzz/same_scene.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

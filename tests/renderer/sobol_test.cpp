@@ -1,10 +1,5 @@
 #include "renderer/sobol.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

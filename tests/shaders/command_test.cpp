@@ -1,17 +1,13 @@
 // `lobelia export` as a user meets it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "reference_scenes/engines/povray/povray_input.hpp"
 #include "shaders/export.hpp"
 #include "shaders/povray.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 class ExportCommand : public testing::Test {
  protected:

@@ -3,16 +3,13 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <map>
-#include <tuple>
 
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/fresnel.hpp"
 #include "studies/stability/vectors.hpp"
 #include "tests/shaders/directions.hpp"
 #include "tests/shaders/exports.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

@@ -1,21 +1,15 @@
 // Compilers and a browser, pretended by shell scripts: what becomes of the ones that hang, crash or quote a shader.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <optional>
 
 #include "core/base64.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "shaders/run_shaders.hpp"
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Another value of an environment variable while it lives.
 class ChangedVariable {

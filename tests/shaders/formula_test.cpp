@@ -1,20 +1,15 @@
 // A lobe by its formula, as shader text in every language.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstring>
 
 #include "renderer/formula.hpp"
 #include "shaders/export.hpp"
 #include "shaders/names.hpp"
 #include "shaders/povray.hpp"
 #include "tests/renderer/infix.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr const char* kFormulas[] = {"max(0, 1 - n*s/6)^6", "exp(-n*x^2/2)", "c/(c + n*s)",
                                      "max(1/(1 + n*s)^2, exp(-sqrt(n*s)))",

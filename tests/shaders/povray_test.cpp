@@ -1,8 +1,5 @@
 // Exports for POV-Ray, in the hands of a stranger.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -11,6 +8,7 @@
 #include "reference_scenes/engine.hpp"
 #include "shaders/povray.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,17 +1,12 @@
 // A shader's text before a compiler sees it, and what a compiler says of it afterwards.
 #include "shaders/program_text.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/error.hpp"
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr char kMark[] = "\xef\xbb\xbf";
 

@@ -1,12 +1,11 @@
 // The exported GLSL, HLSL and WGSL, run by drivers and in Chromium, against the formulas in 50 digits.
-#include <gmock/gmock.h>
-
 #include "core/files.hpp"
 #include "core/image_io_module.hpp"
 #include "core/process.hpp"
 #include "shaders/runner_protocol.hpp"
 #include "tests/shaders/export_values.hpp"
 #include "tests/shaders/shader_runner.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

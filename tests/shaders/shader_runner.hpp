@@ -1,13 +1,9 @@
 // For tests that run shaders: they are skipped where nothing does.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <string_view>
-
 #include "core/error.hpp"
 #include "shaders/run_shaders.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

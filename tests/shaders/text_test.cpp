@@ -1,21 +1,15 @@
 // The exported text as compilers and people meet it.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <regex>
-#include <set>
 
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "tests/shaders/exports.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 /// An expression that adds up every function of the export: its red, if it is a colour.
 std::string calls(const ShaderExport& request, const std::string& vec3) {

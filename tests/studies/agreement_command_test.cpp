@@ -1,9 +1,4 @@
 // The small table of agreement by the real engines, as a user makes it, and with a mistake of a thousandth planted in each.
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <map>
-
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/text.hpp"
@@ -11,12 +6,10 @@
 #include "studies/agreement/agreement.hpp"
 #include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::agreement {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class AgreementCommand : public testing::Test {
  protected:

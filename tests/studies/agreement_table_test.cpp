@@ -1,11 +1,5 @@
 // The table of agreement without engines: what is compared, how, and the page that is made of it.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -14,11 +8,10 @@
 #include "renderer/highlight.hpp"
 #include "studies/agreement/report.hpp"
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::agreement {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr Scope kFull{false, 32}, kSmall{true, 32};
 

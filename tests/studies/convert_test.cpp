@@ -1,11 +1,6 @@
 // Conversions, held to closed forms and to a scan by formulas that are written anew here.
 #include "studies/convert/convert.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "compare/metrics/ciede2000.hpp"
 #include "core/constants.hpp"
 #include "renderer/albedo.hpp"
@@ -15,6 +10,7 @@
 #include "studies/convert/report.hpp"
 #include "studies/convert/rules.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::conversion {
 namespace {

@@ -1,26 +1,14 @@
 // Tables of cost: their fronts, on small ones that can be seen by eye, and how they are shown.
 #include "studies/cost/table.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <pugixml.hpp>
-#include <random>
 
 #include "core/error_time_chart.hpp"
 #include "core/files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 Variant variant(const char* name, double seconds, double error, double spread = 0) {
   Variant result{name, {{"lobe", name}}, {{"max", error}}, {}, {}, {}, {}, {}};

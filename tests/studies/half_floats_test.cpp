@@ -3,14 +3,11 @@
 #include "studies/cost/half_floats.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "core/files.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -1,29 +1,20 @@
 // The errors of every lobe in every way to compute it: over an integral, and the largest of every float32 number.
 #include "studies/cost/lobe_errors.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <random>
-#include <set>
 #include <stdexcept>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_variants.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 using ::testing::Contains;
 using ::testing::DoubleNear;
-using ::testing::HasSubstr;
 
 constexpr std::uint64_t kAll = ~std::uint64_t(0), kFew = 1 << 18;
 

@@ -1,10 +1,9 @@
 // The own light transport of engines, against ours and on scenes that they refuse.
 #include "studies/cost/convergence.hpp"
 
-#include <gtest/gtest.h>
-
 #include "studies/cost/scenes.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -1,10 +1,9 @@
 // The instruments, before what they find: quadratures against closed forms, searches against extremes
 // that are known, verdicts against figures that are just in or just out.
-#include <gtest/gtest.h>
-
 #include "studies/paper/claim.hpp"
 #include "studies/paper/energy.hpp"
 #include "studies/paper/search.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::paper {
 namespace {

@@ -1,8 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "accuracy/lobe_candidates.hpp"
 #include "accuracy/picture_truth.hpp"
 #include "renderer/render.hpp"
@@ -10,11 +5,10 @@
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/scenes.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {
-
-using ::testing::HasSubstr;
 
 const Variant& find(const Table& table, const std::string& name) {
   for (const Variant& variant : table.variants)

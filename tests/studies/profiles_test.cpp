@@ -1,15 +1,10 @@
 // The study of the errors of profiles, in part.
 #include "studies/profiles/profiles.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "farm/profile_scene.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::profile_study {
 namespace {

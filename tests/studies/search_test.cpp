@@ -1,11 +1,7 @@
-// `lobelia search`: its optima by a second solver, its proofs by 50 digits on grids, its certificates by themselves.
-#include <gmock/gmock.h>
+// `lobelia search`: its optima by their certificates, its proofs by 50 digits on grids, its certificates by themselves.
 #include <oneapi/tbb/cache_aligned_allocator.h>
 
-#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cmath>
-#include <random>
 
 #include "core/error.hpp"
 #include "renderer/highlight.hpp"
@@ -14,6 +10,7 @@
 #include "studies/search/search.hpp"
 #include "studies/search/timing.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::search {
 namespace {
@@ -62,70 +59,6 @@ double grid_error(const Lobe& lobe, const Range& range, int exponents, int point
         look(t + around * 30 / points * i / 10, v + around * step * k / 4);
   }
   return double(most);
-}
-
-/// Solves A x = b by elimination.
-std::vector<Exact> solved(std::vector<std::vector<Exact>> rows) {
-  const std::size_t n = rows.size();
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t best = c;
-    for (std::size_t i = c; i < n; ++i)
-      if (abs(rows[i][c]) > abs(rows[best][c])) best = i;
-    std::swap(rows[c], rows[best]);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == c) continue;
-      const Exact factor = rows[i][c] / rows[c][c];
-      for (std::size_t k = c; k <= n; ++k) rows[i][k] -= factor * rows[c][k];
-    }
-  }
-  std::vector<Exact> x;
-  for (std::size_t i = 0; i < n; ++i) x.push_back(rows[i][n] / rows[i][i]);
-  return x;
-}
-
-/// A second solver: Remez's exchange with Newton's method, for a clamped cubic to the power k and e^-t.
-double remez(int k) {
-  // Through three points of e^(-t/k), so that the error has four signs.
-  const double end = 3.5 + 2 * std::log2(k);
-  std::vector<std::vector<Exact>> through;
-  for (const double part : {0.08, 0.4, 0.85}) {
-    const Exact t = end * part;
-    through.push_back({t, t * t, t * t * t, exp(-t / k) - 1});
-  }
-  std::vector<Exact> c = solved(through);
-  Exact error = 0;
-  for (int round = 0; round < 20; ++round) {
-    const auto difference = [&](const Exact& t) {
-      const Exact y = 1 + t * (c[0] + t * (c[1] + t * c[2]));
-      return Exact((y > 0 ? Exact(pow(y, k)) : Exact(0)) - exp(-t));
-    };
-    // The largest difference between any two changes of sign.
-    std::vector<Exact> points;
-    Exact largest = 0, at = 0;
-    for (int i = 1; i < 6000; ++i) {
-      const Exact t = Exact(20) * i / 6000, here = difference(t);
-      if (largest != 0 && (here > 0) != (largest > 0)) {
-        points.push_back(at);
-        largest = 0;
-      }
-      if (abs(here) >= abs(largest)) largest = here, at = t;
-    }
-    points.push_back(at);
-    if (points.size() < 4) return -1;
-    points.resize(4);
-    // Newton's method for equal errors of alternating signs there.
-    std::vector<std::vector<Exact>> rows;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Exact t = points[i], y = 1 + t * (c[0] + t * (c[1] + t * c[2]));
-      const Exact slope = y > 0 ? Exact(k * pow(y, k - 1)) : Exact(0);
-      const Exact sign = difference(points[0]) > 0 ? (i % 2 ? -1 : 1) : (i % 2 ? 1 : -1);
-      rows.push_back({slope * t, slope * t * t, slope * t * t * t, -sign, -difference(t)});
-    }
-    const std::vector<Exact> step = solved(rows);
-    for (std::size_t j = 0; j < 3; ++j) c[j] += step[j];
-    error = step[3];
-  }
-  return std::abs(double(error));
 }
 
 class BestLobe : public testing::TestWithParam<Shape> {};
@@ -189,14 +122,6 @@ INSTANTIATE_TEST_SUITE_P(
       std::ranges::replace(text, '.', '_');
       return text;
     });
-
-TEST(Search, FindsWhatASecondSolverFinds) {
-  for (const int squarings : some_of(std::vector{1, 2, 3}, 2)) {
-    const double second = remez(1 << squarings);
-    const Minimax best = minimax({Outer::kClamp, 3, squarings, 0}, {1e8, kInfinity});
-    EXPECT_NEAR(best.error / second, 1, 2e-3) << squarings;
-  }
-}
 
 TEST(Search, FindsNoLobesNearerThanTheCatalogues) {
   for (const int squarings : some_of(std::vector{1, 2, 3, 4}, 2)) {

@@ -1,10 +1,7 @@
 // Shaders of users, run for real, against the models.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "shaders/export.hpp"
@@ -17,13 +14,13 @@
 #include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/studies/planted_mistakes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
 using shader_check::Check;
 using testing::ElementsAreArray;
-using testing::HasSubstr;
 
 class ShaderCheck : public NeedsShaderRunner {
  protected:

@@ -1,9 +1,9 @@
 // Leaves the kernels the least instruction set that they are compiled for, before the first of them is
 // chosen: without fused multiply-adds the roundings are others.
-#include <gtest/gtest.h>
 #include <hwy/highway.h>
 
 #include "renderer/kernels/kernels.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,15 +1,10 @@
 // The hard cases of the table, by group, and that the table's contrast is a real one.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/precision.hpp"
 #include "studies/stability/cases.hpp"
 #include "studies/stability/naive.hpp"
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::stability {
 namespace {

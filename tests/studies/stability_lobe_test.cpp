@@ -1,15 +1,11 @@
 // The float32 arithmetic that each lobe's file states. Every lobe of the catalogue is met here without a
 // line written; stability_baseline.cpp runs the same on the oldest processor.
-#include <gtest/gtest.h>
-
 #include <cfenv>
-#include <cmath>
-#include <limits>
-#include <random>
 
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "studies/stability/cases.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::stability {
 namespace {

@@ -1,17 +1,10 @@
 // The tables and the record, on a report made by hand.
 #include "studies/stability/report.hpp"
 #include "tests/json.hpp"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/test.hpp"
 
 namespace lobelia::stability {
 namespace {
-
-using testing::HasSubstr;
 
 Row row(const char* name, const char* lobe, double truth, double naive, double ours) {
   const Highlight h{*find_model("modified_phong"), *find_lobe(lobe), Normalisation::kExact, 16};

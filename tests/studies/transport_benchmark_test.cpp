@@ -1,22 +1,14 @@
 // Light transport: how its error falls with samples, and what fits to that.
 #include "studies/cost/benchmarks.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "studies/cost/convergence.hpp"
 #include "studies/cost/scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 using ::testing::Contains;
-using ::testing::HasSubstr;
 using Directions = Experiment::Directions;
 
 /// Without Blender, which is asked for in tests with the label engines.

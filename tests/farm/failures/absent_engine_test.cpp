@@ -5,9 +5,6 @@
 namespace lobelia {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 class AbsentEngine : public FailingFarm {
  protected:
   /// POV-Ray is looked for in $PATH, and whatever else a shell needs is there.

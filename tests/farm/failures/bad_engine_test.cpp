@@ -1,8 +1,6 @@
 // Engines that do whatever engines should not do.
 #include <signal.h>
 
-#include <sstream>
-
 #include "core/image_io.hpp"
 #include "failing_farm.hpp"
 #include "farm/chunk.hpp"
@@ -11,8 +9,6 @@
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 struct Misdeed {
   FailureClass failure;

@@ -7,10 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <random>
-#include <set>
 #include <thread>
 
 #include "core/text.hpp"
@@ -20,8 +16,6 @@ namespace lobelia {
 namespace {
 
 using testing::AnyOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 std::uint64_t number_of(const char* variable, std::uint64_t otherwise) {
   const char* text = std::getenv(variable);

@@ -1,15 +1,10 @@
 // Damage that other programs and disks do to a cache.
 #include <sys/stat.h>
 
-#include <algorithm>
-#include <fstream>
-
 #include "failing_farm.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
 
 class DamagedCache : public FailingFarm {
  protected:

@@ -2,21 +2,14 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "core/files.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
-
-namespace fs = std::filesystem;
 
 /// What a farm has made, by file: every picture and figure byte for byte; of records what does not tell when, where
 /// and at what cost they were made. Logs only by name.

@@ -7,8 +7,6 @@
 namespace lobelia {
 namespace {
 
-using testing::HasSubstr;
-
 class Disk : public FailingFarm {
  protected:
   void SetUp() override {

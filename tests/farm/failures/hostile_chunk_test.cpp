@@ -1,7 +1,4 @@
 // Chunks that no farm of ours has planned.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/sha256.hpp"
@@ -9,12 +6,11 @@
 #include "farm/job_graph.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
 
 class HostileChunk : public testing::Test {
  protected:

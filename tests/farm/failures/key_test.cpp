@@ -1,6 +1,4 @@
 // A key has all that decides a result: the engine's files, its libraries, the arithmetic.
-#include <fstream>
-
 #include "core/text.hpp"
 #include "failing_farm.hpp"
 #include "lobelia_paths.hpp"
@@ -8,9 +6,6 @@
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 void append(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::app | std::ios::binary) << text;

@@ -1,7 +1,6 @@
 // A farm that is killed at any moment.
 #include <signal.h>
 
-#include <random>
 #include <thread>
 
 #include "core/process.hpp"

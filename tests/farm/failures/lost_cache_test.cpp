@@ -2,18 +2,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <fstream>
-#include <sstream>
-
 #include "failing_farm.hpp"
 
 namespace lobelia {
 namespace {
 
 using testing::AnyOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class LostCache : public FailingFarm {
  protected:

@@ -12,8 +12,6 @@
 namespace lobelia {
 namespace {
 
-using testing::HasSubstr;
-
 class RacingFarms : public FailingFarm {
  protected:
   RacingFarms() {

@@ -1,21 +1,16 @@
 #include "farm/chunk.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
-namespace fs = std::filesystem;
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 class ChunkReportFiles : public testing::Test {

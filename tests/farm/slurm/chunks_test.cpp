@@ -1,17 +1,8 @@
 // Laws of make_chunks over many random sets of jobs.
 #include "farm/slurm/slurm_run.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <numeric>
-#include <random>
-#include <set>
-
 #include "tests/more_samples.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,21 +1,14 @@
 // Runs on a real Slurm of this machine: what it says and does itself. farm_cluster_test.cpp has its faults.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "farm/chunk.hpp"
 #include "farm/slurm/doctor.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/farm/slurm/toy_work.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 class SlurmCluster : public testing::Test {

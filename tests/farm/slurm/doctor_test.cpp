@@ -1,15 +1,12 @@
 #include "farm/slurm/doctor.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/farm/slurm/fake_slurm.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
-using testing::HasSubstr;
 using Verdict = DoctorCheck::Verdict;
 
 class Doctor : public FakeSlurm {

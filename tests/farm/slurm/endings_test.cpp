@@ -1,19 +1,12 @@
 // Elements that Slurm ends and work that nodes hand back, with programs that only pretend.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "farm/chunk.hpp"
 #include "tests/farm/slurm/fake_slurm.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 using testing::SizeIs;
 
 class FakeSlurmEndings : public FakeSlurm {

@@ -2,14 +2,9 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "tests/farm/slurm/toy_work.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {

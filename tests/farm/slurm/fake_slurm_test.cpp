@@ -1,21 +1,13 @@
 // The client of Slurm against programs that only pretend, for answers that no real cluster gives on demand.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
+#include "tests/farm/slurm/fake_slurm.hpp"
 #include "farm/slurm/slurm_client.hpp"
 #include "records/cluster.hpp"
 #include "records/record.hpp"
-#include "tests/farm/slurm/fake_slurm.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 // ---- single calls
 

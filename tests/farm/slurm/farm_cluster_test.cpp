@@ -1,18 +1,14 @@
 // The farm on a real Slurm of this machine: whatever happens to the cluster, its results are the local farm's.
-#include <gmock/gmock.h>
-
 #include <thread>
 
 #include "core/text.hpp"
 #include "tests/farm/failures/failing_farm.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr std::size_t kFarmPictures = 24;
 

@@ -1,22 +1,14 @@
 // Farms' directories with the record of a run that a stranger wrote.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
 #include <iterator>
-#include <utility>
 
 #include "farm/slurm/slurm_farm.hpp"
 #include "records/record.hpp"
 #include "tests/farm/farm_fixture.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class HostileRun : public FarmTest {
  protected:

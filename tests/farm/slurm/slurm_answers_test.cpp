@@ -1,11 +1,8 @@
 #include "farm/slurm/slurm_answers.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "core/error.hpp"
 #include "farm/slurm/slurm_options.hpp"
+#include "tests/test.hpp"
 #include "tests/thrown.hpp"
 
 namespace lobelia {

@@ -1,6 +1,5 @@
 #include "farm/slurm/slurm_options.hpp"
-
-#include <gmock/gmock.h>
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

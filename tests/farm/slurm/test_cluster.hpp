@@ -1,15 +1,10 @@
 // A real Slurm cluster of three nodes on this machine, for one test (tests/farm/slurm/cluster).
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

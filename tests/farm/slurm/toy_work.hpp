@@ -2,19 +2,12 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <iterator>
-#include <map>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -22,9 +15,9 @@
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/slurm_run.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
-namespace fs = std::filesystem;
 
 class ToyWork {
  public:

@@ -3,18 +3,14 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <ostream>
-#include <string>
-#include <vector>
 
 #include "core/constants.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/lobe_properties.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 

@@ -4,9 +4,6 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/gamma.hpp>
-#include <optional>
-#include <random>
-#include <vector>
 
 #include "renderer/reflector.hpp"
 #include "tests/renderer/laws/directions.hpp"

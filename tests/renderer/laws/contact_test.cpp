@@ -1,20 +1,15 @@
-// Lights that lie on a surface. Scenes are random: any plane, body and lamp, at any scale and place. The surface
-// is black, so that it shows in a picture by what it hides alone.
+// Lights with a size that lie on a surface. Scenes are random: any plane, body and lamp, at any scale and place. The
+// surface is black, so that it shows in a picture by what it hides alone. Lamps without a size are held to the formulas
+// (analytic_test.cpp, evaluation_test.cpp, random_scenes_test.cpp).
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
 
 #include "renderer/frame.hpp"
-#include "renderer/peak_bound.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
@@ -53,7 +48,6 @@ class RandomScene {
   Vec3 unit() { return normalize({even(), even(), even() + 1e-3}); }
   double scale() const { return scale_; }
   Vec3 normal() const { return normal_; }
-  Vec3 along() const { return frame_.first; }
 
   /// The place of (x, y) in the plane, z above it.
   Vec3 at(Vec3 v) const { return middle_ + scale_ * turned(v); }
@@ -76,11 +70,6 @@ class RandomScene {
     return {at({5 * even(), 5 * even(), 0}), random_() % 2 ? normal_ : -normal_, 3, 3, 1};
   }
   Rgb power(double strength) const { return strength * Rgb{1, 0.5, 0.25}; }
-  PointLight lamp(Vec3 place) {
-    PointLight lamp{place, power(9 * scale_ * scale_)};
-    if (random_() % 3 == 0) lamp.normal = unit();
-    return lamp;
-  }
   double height(Vec3 p) const { return dot(p - middle_, normal_) / scale_; }
 
   Scene scene;
@@ -154,58 +143,6 @@ struct Tally {
   }
 };
 
-TEST(APointLampInAPlane, LightsBothSidesAsIfThePlaneWereNotThereAndNothingOfThePlane) {
-  Tally tally;
-  int above = 0, below = 0;
-  for_random_scenes({0, 40, 300}, [&](RandomScene& random, Scene& scene) {
-    scene.lights = {random.lamp(random.at(random.aside()))};
-    const Image without = render(scene, {}).image;
-    scene.planes = {random.black_plane()};
-    const Image with = render(scene, {}).image;
-    // A matt plane would show itself if the lamp lit it.
-    scene.planes[0].material = scene.planes[0].checker_material = 0;
-    const Image with_matt_one = render(scene, {}).image;
-    EXPECT_LT(peak_bound(scene, scene.lights), 1e4) << "of a lamp that is far from what it lights";
-    for_pixels(scene, [&](int x, int y, const Seen& seen) {
-      if (seen.surface == int(scene.spheres.size())) {
-        EXPECT_EQ(with_matt_one.pixel(x, y)[0], 0) << x << ", " << y;
-        return;
-      }
-      if (seen.surface < 0 || std::abs(random.height(seen.point)) < 1e-6) return;
-      tally.expect(with.pixel(x, y)[0], without.pixel(x, y)[0], x, y);
-      if (with.pixel(x, y)[0] > 0) (random.height(seen.point) > 0 ? above : below) += 1;
-    });
-  });
-  EXPECT_GT(above, 200);
-  EXPECT_GT(below, 500);
-}
-
-TEST(APointLampAHairBesideAPlane, LightsItsOwnSideAndLeavesTheOtherDark) {
-  Tally tally;
-  for_random_scenes({0, 40}, [&](RandomScene& random, Scene& scene) {
-    scene.planes = {random.black_plane()};
-    const Vec3 place = random.at(random.aside());
-    scene.lights = {random.lamp(place)};
-    const double hair = 10 * closeness(scene);
-    for (const double aside : {hair, -hair}) {
-      std::get<PointLight>(scene.lights[0]).position = place + aside * random.normal();
-      Scene open = scene;
-      open.planes.clear();
-      const Image without = render(open, {}).image, with = render(scene, {}).image;
-      for_pixels(scene, [&](int x, int y, const Seen& seen) {
-        const double height = random.height(seen.point);
-        if (seen.surface < 0 || seen.surface == int(scene.spheres.size()) ||
-            std::abs(height) < 1e-6)
-          return;
-        const bool shows = height * aside > 0;
-        tally.expect(with.pixel(x, y)[0], shows ? without.pixel(x, y)[0] : 0, x, y);
-      });
-    }
-  });
-  EXPECT_GT(tally.lit, 400);
-  EXPECT_GT(tally.dark, 5000);
-}
-
 TEST(ARectangleInAPlane, ShinesAsIfThePlaneWereNotThereAndIsSeen) {
   Tally spheres, plane;
   for_random_scenes({0, 40}, [&](RandomScene& random, Scene& scene) {
@@ -250,63 +187,6 @@ TEST(ARectangleAHairBehindAPlane, IsHiddenByIt) {
     });
   });
   EXPECT_GT(dark, 5000);
-}
-
-TEST(ALampOnASphere, LightsWhatIsAboveItsHorizonAsIfTheSphereWereNotThere) {
-  Tally tally;
-  for_random_scenes({0, 40, 300}, [&](RandomScene& random, Scene& scene) {
-    const Vec3 up = random.unit();
-    const Sphere body{random.at(2 * random.aside()), 0.7 * random.scale(), 3};
-    scene.lights = {random.lamp(body.center + body.radius * up)};
-    const Image without = render(scene, {}).image;
-    const Scene bodiless = scene;
-    scene.spheres.push_back(body);
-    const Image with = render(scene, {}).image;
-    const Vec3 lamp = std::get<PointLight>(scene.lights[0]).position;
-    for_pixels(scene, [&](int x, int y, const Seen& seen) {
-      const double above = dot(seen.point - lamp, up) / random.scale();
-      if (seen.surface < 0 || (seen.surface < 3 && std::abs(above) < 1e-6)) return;
-      const bool shows = seen.surface < 3 && above > 0;
-      tally.expect(with.pixel(x, y)[0], shows ? without.pixel(x, y)[0] : 0, x, y);
-      if (seen.surface >= 3) return;
-      const Vec3 center = scene.spheres[std::size_t(seen.surface)].center;
-      const Hit hit{seen.surface, seen.point, normalize(seen.point - center)};
-      EXPECT_EQ(light_at(scene, 0, hit).has_value(),
-                shows && light_at(bodiless, 0, hit).has_value());
-    });
-  });
-  EXPECT_GT(tally.lit, 1000);
-  EXPECT_GT(tally.dark, 5000);
-}
-
-TEST(ALampAHairInsideASphere, LightsNothingAndOneAHairOutsideAllThatItSees) {
-  Tally tally;
-  for_random_scenes({0}, [&](RandomScene& random, Scene& scene) {
-    const Vec3 up = random.unit();
-    const Sphere body{random.at(2 * random.aside()), 0.7 * random.scale(), 3};
-    scene.lights = {random.lamp(body.center)};
-    scene.spheres.push_back(body);
-    const double hair = 10 * closeness(scene);
-    Vec3& place = std::get<PointLight>(scene.lights[0]).position;
-    place = body.center + (body.radius - hair) * up;
-    EXPECT_EQ(remarks(scene).size(), 1u) << "that the sphere hides it";
-    const Image inside = render(scene, {}).image;
-    place = body.center + (body.radius + hair) * up;
-    EXPECT_EQ(remarks(scene).size(), 0u);
-    const Image outside = render(scene, {}).image;
-    scene.spheres.pop_back();
-    const Image without = render(scene, {}).image;
-    scene.spheres.push_back(body);
-    for_pixels(scene, [&](int x, int y, const Seen& seen) {
-      if (seen.surface < 0) return;
-      tally.expect(inside.pixel(x, y)[0], 0, x, y);
-      // It sees over its horizon by the square root of a hair.
-      const double above = dot(seen.point - place, up) / length(seen.point - place);
-      if (seen.surface == 3 || std::abs(above) < 1e-2) return;
-      tally.expect(outside.pixel(x, y)[0], above > 0 ? without.pixel(x, y)[0] : 0, x, y);
-    });
-  });
-  EXPECT_GT(tally.lit, 300);
 }
 
 TEST(ABallOfLightAroundASphereOfItsSize, ShinesAsIfTheSphereWereNotThereAndIsSeen) {

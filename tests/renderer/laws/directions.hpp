@@ -1,8 +1,6 @@
 // Directions for the laws: chosen at random once and for all, and as grazing as they come.
 #pragma once
 
-#include <random>
-
 #include "core/vec.hpp"
 #include "tests/renderer/laws/cases.hpp"
 

@@ -1,6 +1,5 @@
 // eval, sample and pdf of a Reflector belong to each other.
 #include <boost/math/distributions/normal.hpp>
-#include <random>
 
 #include "renderer/albedo.hpp"
 #include "renderer/reflector.hpp"

@@ -1,17 +1,15 @@
 // A lobe that is given by its formula alone: the same as the catalogue's, where the catalogue has it.
 #include "renderer/formula_lobe.hpp"
 
-#include <gmock/gmock.h>
-
 #include <memory>
 #include <regex>
-#include <tuple>
 
 #include "core/error.hpp"
 #include "renderer/operation_count.hpp"
 #include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/laws/cases.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,12 +1,9 @@
 // The law of the fused kernels: their pictures are those of the kernels one by one, bit for bit.
-#include <gtest/gtest.h>
-
-#include <cstring>
-
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/renderer/laws/cases.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

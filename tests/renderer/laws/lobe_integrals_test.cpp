@@ -1,6 +1,4 @@
 // The integrals that each lobe states, against quadrature: moments, density, samples.
-#include <limits>
-
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/model.hpp"
 #include "renderer/type_list.hpp"

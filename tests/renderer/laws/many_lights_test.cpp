@@ -1,8 +1,5 @@
 // One of many lights is drawn at a time. That changes the noise, and nothing else.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <numeric>
 
 #include "renderer/light_tree.hpp"
 #include "renderer/scene/contact.hpp"
@@ -10,6 +7,7 @@
 #include "tests/renderer/blocks.hpp"
 #include "tests/renderer/random_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

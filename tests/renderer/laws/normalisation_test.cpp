@@ -1,7 +1,5 @@
 // With its exact coefficient a model's integral is 1, by adaptive quadrature of its own evaluation. How far the paper's
 // coefficients are from that.
-#include <map>
-
 #include "renderer/reflector.hpp"
 #include "tests/renderer/laws/cases.hpp"
 #include "tests/renderer/laws/quadrature.hpp"

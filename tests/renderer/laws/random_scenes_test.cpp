@@ -1,17 +1,13 @@
 // Laws of the plan and of its pictures on scenes at random: what the plan leaves out would do nothing.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 
 #include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/contact.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

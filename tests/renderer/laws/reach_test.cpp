@@ -1,14 +1,13 @@
 // The law of a highlight's reach: what is left out is black.
 #include "renderer/highlight_reach.hpp"
 
-#include <gtest/gtest.h>
-
 #include "renderer/chord.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/lights/lights.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/renderer/laws/cases.hpp"
 #include "tests/renderer/random_scene.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,7 +1,4 @@
 // sample() draws as pdf() says, for every model and lobe, from normal incidence to grazing.
-#include <array>
-#include <numbers>
-
 #include "tests/more_samples.hpp"
 #include "tests/renderer/laws/chi_square.hpp"
 

@@ -1,10 +1,9 @@
 // Skies at random: what the sky draws and what surfaces draw is together its light.
-#include <gtest/gtest.h>
-
 #include "tests/more_samples.hpp"
 #include "tests/renderer/blocks.hpp"
 #include "tests/renderer/random_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {

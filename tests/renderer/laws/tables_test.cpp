@@ -1,12 +1,8 @@
 // Tables of highlights over the exponent: what a page interpolates is what the renderer computes.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "renderer/albedo.hpp"
 #include "renderer/catalogue_record.hpp"
 #include "tests/json.hpp"
+#include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
