@@ -9,7 +9,7 @@
 // radiance() is per unit irradiance normal to the beam, 1/sr, with N.L where the model has it: do not multiply by N.L again.
 // Fresnel's factor and the colour are yours.
 //
-// Promised, and tested against the library for exponents of 1e-3 to 1e8: in double, lobes to 1e-13 of their peak and coefficients
+// Promised, and tested against the library for exponents of 1e-3 to 1e8: in double, lobes to 1e-12 of their peak and coefficients
 // to 1e-12 of themselves; in float, lobes to the error that `lobelia verify stability` allows float32.
 //
 // Made by `make headers` from Lobelia's renderer: edit that. Copyright (c) The Lobelia authors. SPDX-License-Identifier: MIT

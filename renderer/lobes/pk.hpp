@@ -99,16 +99,16 @@ struct PkLobe {
     return cubic > Number(0) ? Number(pow(cubic, Number(k))) : Number(0);
   }
 
-  double moment(int j, double s_max) const { return integral(j, std::min(s_max, lobe_end())); }
+  double moment(int j, double s_max) const { return integral(j, std::min(s_max, support())); }
 
   /// Inverts the integral, from the sample of the spherical Gaussian on.
   double sample(double xi) const {
-    const double end = lobe_end(), below = xi * integral(0, end);
+    const double end = support(), below = xi * integral(0, end);
     return root([&](double s) { return below - integral(0, s); },
                 [&](double s) { return -value(s); }, end,
                 std::min(end, -std::log1p(xi * std::expm1(-n * end)) / n), 1e-14 * below);
   }
-  double density(double s) const { return value(s) / integral(0, lobe_end()); }
+  double density(double s) const { return value(s) / integral(0, support()); }
   PaperColumn paper_column() const { return PaperColumn::kNone; }
 
   LobeText text() const {
@@ -176,7 +176,7 @@ struct PkLobe {
   }
 
   /// The s where the lobe ends. Not in the constructor, because kernels, which make many lobes, do without.
-  double lobe_end() const {
+  double support() const {
     if (base(1.0) > 0) return 1;
     const auto slope = [&](double s) {
       return multiply_add(multiply_add(3 * of_s[2], s, 2 * of_s[1]), s, of_s[0]);
@@ -184,7 +184,7 @@ struct PkLobe {
     return root([&](double s) { return base(s); }, slope, 1, 0, 1e-15);
   }
 
-  /// The integral of value s^j over s from 0 to `end`, which is at most lobe_end(). Exact: the integrand is a polynomial
+  /// The integral of value s^j over s from 0 to `end`, which is at most support(). Exact: the integrand is a polynomial
   /// of degree 3 k + j, at most 15 or 51, and N points are exact up to degree 2 N - 1.
   double integral(int j, double end) const {
     using boost::math::quadrature::gauss;
