@@ -1,6 +1,7 @@
 // The cells of a large site: one page for all of them, and their data in few files (decision 11).
 #pragma once
 
+#include "gallery/gallery.hpp"
 #include "gallery/index_page.hpp"
 #include "gallery/publisher.hpp"
 
