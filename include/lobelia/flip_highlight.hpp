@@ -8,7 +8,7 @@
 //   for (const Judged& one : verdict.limits) printf("%s: %g, limit %g\n", one.metric, one.value, one.limit);
 //   return verdict.pass ? 0 : 1;
 //
-// Promised, and tested against the library: each pixel's FLIP to 1e-5; the figures of compare() to 1e-9, so that its limits give the
+// Promised, and tested against the library: each pixel's FLIP to 2e-6; the figures of compare() to 1e-9, so that its limits give the
 // verdict that `lobelia compare` gives by the same limits, for pictures without noise. The lobelia program has more limits: it also
 // judges each highlight by itself, colours, and FLIP at exposures that suit the pair. A highlight beside a brighter one needs that.
 //
