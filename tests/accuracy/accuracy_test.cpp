@@ -105,7 +105,7 @@ TEST(Accuracy, IsReachedInNoiseToo) {
     }
 }
 
-TEST(Accuracy, TakesMoreSamplesTheMoreIsAskedAndSaysWhatIsPossible) {
+TEST(Accuracy, TakesMoreSamplesForASmallerError) {
   const Scene s = scene("effects/area_light", 32);
   const Choice loose = choose(s, parse_accuracy("0.1"), 64),
                tight = choose(s, parse_accuracy("0.01"), 64);
@@ -175,7 +175,7 @@ TEST(Accuracy, TakesTheScenesOwnLobeInFloat64WithoutABound) {
   EXPECT_TRUE(measure_reached(s, choice, picture(choice)).held(choice));
 }
 
-TEST(Accuracy, HoldsForABlackPictureAndSaysThatNothingWasMeasured) {
+TEST(Accuracy, HoldsForABlackPicture) {
   Scene dark = scene("head_on");
   std::get<DirectionalLight>(dark.lights[0]).irradiance = {};
   Scene dark_noise = dark;

@@ -13,7 +13,7 @@ ProcessResult render(const TemporaryDirectory& directory, const std::string& sce
   return run_lobelia(arguments, directory.path());
 }
 
-TEST(RenderAccuracy, SaysWhatItChoseAndWhyAndWhatWasReached) {
+TEST(RenderAccuracy, ExplainsItsChoiceWithTheErrorReached) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "oblique_45.xml", {"--accuracy", "1e-1"});
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
@@ -31,7 +31,7 @@ TEST(RenderAccuracy, SaysWhatItChoseAndWhyAndWhatWasReached) {
               HasSubstr(accuracy["chose"]["precision"].get<std::string>()));
 }
 
-TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
+TEST(RenderAccuracy, CanSkipTheMeasurementOfTheErrorReached) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "oblique_45.xml",
                              {"--accuracy", "de2000=1", "--accuracy-check", "none", "-q"});
@@ -75,7 +75,7 @@ TEST(CostCommand, MeasuresPictures) {
   EXPECT_FALSE(record.at("tables").at(0).at("ways").empty());
 }
 
-TEST(CostCommand, SaysWhatToUseForALevelThatIsGone) {
+TEST(CostCommand, NamesTheReplacementOfARemovedLevel) {
   const TemporaryDirectory directory;
   for (const char* level : {"fixed-point", "engine"})
     expect_one_line(run_lobelia({"cost", "--level", level}, directory.path()), 2, "; use lobelia ");

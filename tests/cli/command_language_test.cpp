@@ -113,7 +113,7 @@ TEST(TimeLimit, EndsEveryCommandThatWorksForLongWithItsOwnExitCode) {
   }
 }
 
-TEST(Verbose, PrintsTheTimeAndTheMemoryAndOfARenderThePlan) {
+TEST(Verbose, PrintsThePlanOfARenderWithItsTime) {
   const TemporaryDirectory directory;
   const auto result =
       run_lobelia({"render", kScenes + "head_on.xml", "-o", "a.exr", "-v"}, directory.path());

@@ -158,7 +158,7 @@ TEST_F(ComparePictures, APictureThatOnlyTheReferenceHasFailsAlsoWithoutItsAlpha)
   EXPECT_EQ(made["layersInOne"]["b"], Record({""}));
 }
 
-TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsNamedWithout) {
+TEST_F(ComparePictures, FailsForAMissingLayerWithAllLayers) {
   flat("less.exr", 1);
   flat("more.exr", 1, {channel("Z", 1)});
   EXPECT_EQ(record({"less.exr", "more.exr", "--all-layers"}, 1)["verdict"], "differs");

@@ -21,7 +21,7 @@ class HowPicturesAreRead : public ComparePictures {
   }
 };
 
-TEST_F(HowPicturesAreRead, IsSaidOfCurvesAndGainMapsInTheTableTheRecordAndTheReport) {
+TEST_F(HowPicturesAreRead, IsReportedForCurvesOrGainMaps) {
   file("pq.png", png_file({.width = 8,
                            .height = 8,
                            .bits = 16,

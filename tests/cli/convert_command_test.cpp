@@ -15,7 +15,6 @@ class ConvertCommand : public testing::Test {
   ProcessResult run(const std::string& arguments) const {
     return run_shell("\"$LOBELIA\" convert " + arguments, directory_.path());
   }
-  /// The commands' output on stdout.
   std::string printed(const std::string& commands) const {
     const auto result = run_shell(
         "lobelia() { \"$LOBELIA\" \"$@\"; }\n(\n" + commands + ") > printed", directory_.path());

@@ -19,7 +19,7 @@ TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
   EXPECT_THAT(without.output_tail, HasSubstr("no PID namespace: a subreaper ends them"));
 }
 
-TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
+TEST(FarmCommand, LeavesNoEngineBehindAfterCtrlC) {
   const TemporaryDirectory directory;
   // An engine that would take a minute; known in the list of processes by its odd time.
   write_file(directory.path() / "slow-povray",
@@ -49,7 +49,7 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));
 }
 
-TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
+TEST(FarmCommand, RepairsFilesReportedByItsGallery) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());
   const std::vector<std::string> farm{"farm", "grid.xml", "-o", "out", "-q", "--gallery", "site"},

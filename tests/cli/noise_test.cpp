@@ -9,7 +9,6 @@
 namespace lobelia {
 namespace {
 
-/// Renders the scene with an area light in `directory`.
 void render_area_light(const TemporaryDirectory& directory, const std::string& output,
                        std::vector<std::string> more) {
   std::vector<std::string> arguments{

@@ -113,7 +113,7 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
         << folder;
 }
 
-TEST_F(OutsideEngines, AProgramStartsOnlyIfEveryFileThatHasASayIsTrusted) {
+TEST_F(OutsideEngines, StartOnlyIfEveryFileIsTrusted) {
   for (const char* folder : {"trusted/sub", "outside/deep"}) fs::create_directories(path(folder));
   const std::string engine = "<engine name=\"mine\" command=\"sh mine.sh {scene} {out}\"/>";
   for (const char* file : {"trusted/x.engine.xml", "outside/o.engine.xml"})

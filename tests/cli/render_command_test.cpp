@@ -7,7 +7,7 @@ namespace {
 
 std::string bytes(const std::filesystem::path& path) { return read_file(path, 1 << 28); }
 
-TEST(RenderCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndGoesOn) {
+TEST(RenderCommand, WarnsOutsideThePapersExponents) {
   const TemporaryDirectory directory;
   const auto render = [&](const char* exponent, const char* normalisation) {
     return run_lobelia({"render", kScenes + "head_on.xml", "--width", "8", "--height", "8",

@@ -80,7 +80,7 @@ TEST_F(StandardStreams, StderrThatCannotBeWrittenChangesNoExitCode) {
   }
 }
 
-TEST_F(StandardStreams, StdoutThatCannotBeWrittenIsExitCode4AndOneLineOr141WithoutAReader) {
+TEST_F(StandardStreams, FailWithExitCode4OnAFullDisk) {
   std::size_t number = 0;
   for (const char* command : {"--help",
                               "--version",
@@ -135,7 +135,6 @@ TEST_F(StandardStreams, ReceiveNoPictureWhenTheyAreClosed) {
   }
 }
 
-/// A pipe that is full.
 class FullPipe {
  public:
   FullPipe() {

@@ -51,7 +51,7 @@ TEST(Disagreement, IsFlaggedWhereOnePassesByFarAndAnotherFamilyFails) {
   EXPECT_EQ(of(result("ssim", 0.9995, 0.99), result("ciede2000.max", 1.1, 1)).size(), 1u);
 }
 
-TEST(Disagreement, IsNotFlaggedWithinAFamilyNorWhereAllSayTheSame) {
+TEST(Disagreement, IsOnlyFlaggedBetweenFamilies) {
   EXPECT_THAT(of(result("rmse", 1, 0.01), result("max_abs", 1, 2)), IsEmpty());
   EXPECT_THAT(of(result("rmse", 1, 0.01), result("flip.ldr.mean", 1, 0.01)), IsEmpty());
   EXPECT_THAT(of(result("rmse", 0, 0.01), result("flip.ldr.mean", 0, 0.01)), IsEmpty());

@@ -72,7 +72,6 @@ Image each(const Image& image, const std::function<double(double)>& change) {
   return result;
 }
 
-/// The highlight's own line.
 const records::LocalHighlight* line_of(const Comparison& comparison, const Spot& spot) {
   const auto found = std::ranges::find_if(comparison.highlights, [&](const auto& one) {
     return std::hypot(one.x + 0.5 - spot.x, one.y + 0.5 - spot.y) < 2;
@@ -275,7 +274,7 @@ Image texture(double phase) {
   });
 }
 
-TEST(HighlightsTable, HasNoAlarmForTexturesAndSlopesThatHardlyDiffer) {
+TEST(HighlightsTable, HasNoAlarmForNearlyEqualTextures) {
   for (const Image& reference :
        {texture(0), texture(1.2),
         picture(kTableWidth, kTableHeight, [](double x, double) { return x; }),

@@ -101,7 +101,7 @@ TEST(DifferenceMaps, AddUpToTheMetricsOfTheirNameAtTheSameExposure) {
   }
 }
 
-TEST(DifferenceMaps, RelativeIsOfTheReferenceAndLargestWhereThatHasNothing) {
+TEST(DifferenceMaps, DivideRelativeErrorsByTheReference) {
   Image a = fixtures::flat(3, 1, 1.5f, 1, 1), b = fixtures::flat(3, 1, 1, 1, 1);
   b.pixel(1, 0)[0] = 0;
   b.pixel(2, 0)[0] = -3;

@@ -136,7 +136,7 @@ TEST(CommonExpectation, IsThePictureWithoutNoiseWhereOneHasNone) {
   EXPECT_TRUE(is_truth(common_expectation(truth, truth, {})));
 }
 
-TEST(Noise, NamesFirefliesAndNoNormalNoiseNorASilhouette) {
+TEST(Noise, ReportsOnlyTrueFireflies) {
   for (const NoiseKind kind : fixtures::kNoiseKinds)
     for (const int count : {2, 4}) {
       const double share = fixtures::noisy_mean(kind, 5, count, 8).noise.fireflies;

@@ -2,6 +2,7 @@
 #include "compare/set/pairing.hpp"
 #include "core/files.hpp"
 #include "tests/test.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -43,14 +44,7 @@ class FolderPairing : public ::testing::Test {
   }
   /// Why the choice cannot be paired.
   static std::string refusal(const PairingChoice& choice, ExitCode code) {
-    try {
-      pair_pictures(choice);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "was paired";
-    return "";
+    return error_words(code, [&] { pair_pictures(choice); });
   }
   void SetUp() override {
     fs::create_directories(folder_.path() / "a");
@@ -297,7 +291,7 @@ class TablePairing : public FolderPairing {
   }
 };
 
-TEST_F(TablePairing, HasTheTitlesOfTheSetsInItsFirstLineAndPathsFromWhereItLies) {
+TEST_F(TablePairing, ReadsTitlesFromItsFirstLine) {
   const Pairing pairing =
       pair_pictures(table("\xef\xbb\xbfmine,name,reference,old\r\n"
                           "a/x.exr,first,b/x.exr,\r\n"

@@ -1,4 +1,4 @@
-// What is found of two pictures with noise, and what their error bars hold.
+// Error bars and verdicts of two pictures with noise.
 #include <oneapi/tbb/global_control.h>
 
 #include <boost/math/distributions/binomial.hpp>
@@ -226,7 +226,7 @@ TEST(ZTest, FindsADriftOfAPercentThatNoPixelShows) {
   }
 }
 
-TEST(ZTest, FindsADimmerMovedOrWiderHighlightThatNoRegionShows) {
+TEST(ZTest, FindsHighlightChangesHiddenFromRegions) {
   // In each value noise of a tenth of the peak, two pictures a side. A score test finds what is 4 to 8 errors of its sum.
   constexpr int kSide = 48, kTrials = 10;
   const auto highlight = [](double u, double v, double width) {
@@ -407,7 +407,7 @@ TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
   EXPECT_NE(error(), many);
 }
 
-TEST(ErrorBars, CallNoLimitBrokenWherePixelsErrInGroupsAndNothingDiffers) {
+TEST(ErrorBars, BreakNoLimitIfPixelsErrInGroups) {
   // Neither each by itself nor all together: rows of pixels share their noise.
   constexpr int kTrials = 30;
   const Image b = fixtures::highlight(32, 32, 4, 1);

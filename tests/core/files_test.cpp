@@ -95,7 +95,7 @@ TEST(ReadFile, EndsAtAnInterruptionOnlyIfTheFileIsLarge) {
   forget_interrupt();
 }
 
-TEST(RequireWritable, LeavesNothingAndAsksForADirectoryThatIsThereAndMayBeWritten) {
+TEST(RequireWritable, NeedsAnExistingWritableDirectory) {
   const TemporaryDirectory directory;
   const fs::path here = directory.path();
   require_writable(here / "new");
@@ -121,7 +121,7 @@ TEST(RequireWritable, RefusesADirectoryThatWasRemovedWhileItIsTheCurrentOne) {
   }
 }
 
-TEST(PartFile, HoldsWhatWasAppendedAndOverwrittenInPiecesOfAnySize) {
+TEST(PartFile, HoldsContentWrittenInPiecesOfAnySize) {
   const TemporaryDirectory directory;
   std::mt19937 random;
   const auto up_to = [&](std::size_t most) { return random() % (most + 1); };
@@ -188,7 +188,7 @@ TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
   EXPECT_EQ(entries(directory.path()), 1u);
 }
 
-TEST(ReadFile, RefusesWhatIsMissingTooLongOrNoFileAndWaitsForNoPipe) {
+TEST(ReadFile, RefusesMissingOrTooLongFiles) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt", pipe = directory.path() / "pipe";
   write_file(path, "12345");

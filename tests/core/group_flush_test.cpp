@@ -8,7 +8,6 @@
 namespace lobelia {
 namespace {
 
-/// Writes a file as others do that a group flushes.
 fs::path written(const GroupFlush& flush, const fs::path& path) {
   const auto later = flush.later();
   write_file(path, path.filename().string());

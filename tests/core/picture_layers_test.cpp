@@ -108,7 +108,7 @@ TEST(PictureLayers, HoldEveryChannelOnceWhateverTheNamesAre) {
   }
 }
 
-TEST(PictureLayers, APictureIsRgbOrElseYOrElseTheOnlyThingThereIs) {
+TEST(PictureLayers, PreferRgbThenYThenTheOnlyLayer) {
   EXPECT_THAT(find_layer("", {{{"", {"A", "Y"}}}}, "").where, ElementsAre(1));
   EXPECT_THAT(find_layer("", {{{"", {"Y", "R", "G", "B"}}}}, "").where, ElementsAre(1, 2, 3));
   EXPECT_THAT(find_layer("", {{{"", {"depth"}}}}, "").where, ElementsAre(0));

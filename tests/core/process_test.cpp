@@ -83,7 +83,7 @@ TEST(Process, IsNotTakenForHangingWhileItTalksOrWrites) {
   EXPECT_TRUE(reads.get());
 }
 
-TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrensAndNotOurs) {
+TEST(Process, CountsTheTimeOfItsChildren) {
   // Our peak is not theirs, though the kernel hands it on to each program that is started.
   ASSERT_NE(std::string(256 << 20, 'x'), "");
   const auto idle = run_process(shell("sleep 0.3"), {});

@@ -228,7 +228,7 @@ class NoOpenFiles {
   rlimit before_{};
 };
 
-TEST_F(RemovalTest, TakesNothingForMissingOrEmptyThatTooManyOpenFilesHide) {
+TEST_F(RemovalTest, ReportsTooManyOpenFiles) {
   fs::create_directories(root() / "tree" / "inner");
   const HeldDirectory held(root());
   Removal all = removal();
@@ -274,7 +274,7 @@ class DeadTemporaries : public testing::Test {
   const TemporaryDirectory place_;
 };
 
-TEST_F(DeadTemporaries, GoThoughTheyAreEmptyAndOnlyIfTheyAreOursAndNobodyHoldsThem) {
+TEST_F(DeadTemporaries, GoIfTheyAreOursWithoutAHolder) {
   const fs::path place = place_.path();
   const TemporaryDirectory outside;
   write_file(outside.path() / "precious", "x");

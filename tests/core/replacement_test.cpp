@@ -86,7 +86,7 @@ TEST_F(ReplacementTest, ACallThatFailsLeavesAllFilesOldOrAllNew) {
   }
 }
 
-TEST_F(ReplacementTest, AnUndoThatIsKilledOrFailsIsFinishedByTheNextLook) {
+TEST_F(ReplacementTest, FinishesAnInterruptedUndoAtTheNextLook) {
   for (const Kind kind : {Kind::kKill, Kind::kOnce, Kind::kFromThenOn}) {
     int call = 1;
     for (bool reached = true; reached && call < kMostCalls && !HasFailure(); ++call) {

@@ -83,7 +83,7 @@ TEST(EscapedUtf8, KeepsTwoNamesApartThatReplacementWouldMakeOne) {
   EXPECT_EQ(valid_utf8("a\xFF"), valid_utf8("a\xFE"));
 }
 
-TEST(ValidUtf8, KeepsWhatIsValidAndReplacesEachByteThatIsNot) {
+TEST(ValidUtf8, ReplacesEachInvalidByte) {
   const std::string replaced = "\xEF\xBF\xBD";
   EXPECT_EQ(valid_utf8(""), "");
   EXPECT_EQ(valid_utf8("a\xC3\xA9\xE2\x82\xAC\xF0\x9F\x8C\x88"),

@@ -50,7 +50,7 @@ TEST_F(UpkeepTest, GarbageGoesFromTheLeastUsedUntilTheRestFits) {
   EXPECT_EQ(run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {}).work.made, 8u);
 }
 
-TEST_F(UpkeepTest, AFarmUsesWhatItTouchesSoThatGarbageIsSomethingElse) {
+TEST_F(UpkeepTest, MarksResultsAsUsedByAFarm) {
   const ResultCache results(cache());
   const auto old = fs::last_write_time(cache()) - std::chrono::hours(1000);
   for (const auto& key : results.list()) fs::last_write_time(results.result_directory(key), old);

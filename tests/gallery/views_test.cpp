@@ -164,7 +164,7 @@ TEST_P(RecordViews, AreNotThereWithoutTheirRecord) {
   EXPECT_FALSE(std::filesystem::exists(farm_.directory() / page()));
 }
 
-TEST_P(RecordViews, SayThatARecordIsBrokenAndTheGalleryIsThere) {
+TEST_P(RecordViews, ReportABrokenRecordInTheGallery) {
   // Every member in turn of another type, and gone.
   const Json whole = Json::parse(GetParam().record());
   put(GetParam().record());

@@ -40,7 +40,7 @@ class GalleryScript : public ::testing::Test {
   std::string said, calls, told;
 };
 
-TEST_F(GalleryScript, SaysWhereTheGalleryIsAndExitsWithTheWorstFailure) {
+TEST_F(GalleryScript, ExitsWithTheWorstFailure) {
   struct Case {
     const char* what;
     int farm, gallery, cost, exit_code;

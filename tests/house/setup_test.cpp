@@ -95,7 +95,7 @@ TEST_F(Setup, LooksOnlyForThePurposesItIsGiven) {
   EXPECT_EQ(said, "");
 }
 
-TEST_F(Setup, InstallsExactlyWhatIsMissingAndSaysWhyFirst) {
+TEST_F(Setup, InstallsOnlyMissingPackages) {
   installed("compiler\npainter\n");
   EXPECT_EQ(run("build engines"), 0);
   EXPECT_THAT(apt_calls(), ElementsAre("update", "install -y --no-install-recommends library",
@@ -114,7 +114,7 @@ TEST_F(Setup, CountsARemovedPackageThatLeftItsSettingsAsMissing) {
   EXPECT_THAT(said, AllOf(HasSubstr("compiler"), Not(HasSubstr("library"))));
 }
 
-TEST_F(Setup, FailsWithoutPermissionAndNamesPackagesAndCommand) {
+TEST_F(Setup, NamesItsCommandIfPermissionIsMissing) {
   installed("compiler\n");
   fake("id", "echo 1000");
   EXPECT_EQ(run("build engines"), 1);
@@ -145,7 +145,7 @@ TEST_F(Setup, FailsWithoutAptOrDpkgAndNamesThePackages) {
   EXPECT_THAT(said, AllOf(HasSubstr("no dpkg-query"), HasSubstr("library")));
 }
 
-TEST_F(Setup, WarnsOfAnEngineThatCannotBeHadAndInstallsTheOthers) {
+TEST_F(Setup, InstallsTheOtherEnginesIfOneIsUnavailable) {
   installed("compiler\nlibrary\n");
   unavailable("painter\n");
   EXPECT_EQ(run("build engines"), 0);

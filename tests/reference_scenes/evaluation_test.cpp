@@ -200,7 +200,7 @@ TEST(EdgeRing, HasTheShadowsEdgeOfASphereAndOfAPlaneOutOfSight) {
   EXPECT_GT(ring_size(scene), 8);
 }
 
-TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
+TEST(EdgeRing, HasSilhouettesSeenInMirrors) {
   Scene scene = plane_scene();
   scene.lights.clear();
   scene.materials.push_back(mirror(1));

@@ -91,7 +91,7 @@ class ContentTest : public FileHashesTest {
   }
 };
 
-TEST_F(ContentTest, IsOfContentAndNamesAndNotOfPlacesAndOrder) {
+TEST_F(ContentTest, IsIndependentOfPathsOrTheirOrder) {
   FileHashes hashes{fs::path()};
   const auto content = [&](const std::vector<std::pair<std::string, fs::path>>& libraries) {
     ContentReader reader(hashes);

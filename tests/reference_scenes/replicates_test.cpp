@@ -26,7 +26,7 @@ Image converged(Scene scene) {
   return render(scene, {}).image;
 }
 
-TEST(Replicates, AverageToThePictureWithinTheirOwnNoiseAndComeNearerWithMorePoints) {
+TEST(Replicates, AverageToThePictureWithinTheirOwnNoise) {
   for (NamedScene& named : soft_scenes({"modified_phong", "cosine", "exact", 8}, 16)) {
     SCOPED_TRACE(named.name);
     // With one ray a pixel there is no antialiasing to average; ours has it as soon as it samples.

@@ -57,7 +57,7 @@ TEST(Remarks, SayWhyAPictureIsBlackAndItIs) {
   }
 }
 
-TEST(Remarks, SayOfASceneWithoutShapesThatItsLightsAreLeftToSee) {
+TEST(Remarks, ExplainASceneWithLightsAlone) {
   Scene scene = plain();
   scene.spheres.clear();
   scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};

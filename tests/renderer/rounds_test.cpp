@@ -26,7 +26,7 @@ double rms_difference(const Image& a, const Image& b) {
   return std::sqrt(difference / value);
 }
 
-TEST(Rounds, StopAtTheErrorThatWasAskedForAndKeepThePromise) {
+TEST(Rounds, StopAtTheRequestedError) {
   Scene scene = noisy();
   scene.sampler.sample_count = 4096;
   const Image truth = render(scene, {}).image;

@@ -37,7 +37,7 @@ TEST(EffectScenes, HaveWhatTheirNamesSay) {
   EXPECT_EQ(read_scene(effects + "crowd.xml").spheres.size(), 10164u);
 }
 
-TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint) {
+TEST(SceneReader, TakesDefaultsForAllOptionalParts) {
   const Scene s = parse_scene(
       scene("<shape type=\"sphere\"><point name=\"center\" x=\"1\" z=\"3\"/>"
             "<bsdf type=\"modified_phong\"><float name=\"exponent\" value=\"8\"/></bsdf></shape>"
@@ -56,7 +56,7 @@ TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint
   EXPECT_EQ(s.materials[s.spheres[1].material].specular_reflectance, (Rgb{0.5, 0.5, 0.5}));
 }
 
-TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
+TEST(SceneReader, ExplainsEveryError) {
   const std::string emitter =
       "<emitter type=\"directional\">\n  <vector name=\"direction\" value=\"";
   const BadScene bad[] = {

@@ -158,7 +158,7 @@ TEST(HalfFloatExports, AreTheSameInGlslAndHlslButForTheTypes) {
                    {"(?:_MEDIUMP|_MIN16FLOAT)\\b", ""}});
 }
 
-TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
+TEST(MslExport, MatchesTheHlslExportBelowItsBeginning) {
   // No compiler of MSL is in Debian. What the text computes, run_test shows of HLSL.
   const std::vector<ShaderExport> msl = every_export("msl");
   expect_the_same(msl, every_export("hlsl"), {std::pair{"\\binline ", ""}});

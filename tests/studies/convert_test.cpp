@@ -170,7 +170,7 @@ TEST(Errors, AreThoseOfAnotherImplementation) {
   EXPECT_GT(largest_difference(from, Curve(kGgxModel, 0.2425, 1)).angle, 0.1);
 }
 
-TEST(Rules, HaveThePeaksOfTheDistributionsAndTheWidthsThatAreQuoted) {
+TEST(Rules, HaveTheQuotedPeaksWithTheirWidths) {
   const double n = 32;
   // The distributions alone, as functions of the angle of N from H.
   const auto peak = [&](double alpha) { return 1 / (kPi * alpha * alpha) / ((n + 2) / (2 * kPi)); };

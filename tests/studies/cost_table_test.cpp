@@ -44,7 +44,7 @@ TEST(ParetoFront, LeavesOutWhatHasNoError) {
   EXPECT_THAT(pareto_front(table({}), 0).variants, IsEmpty());
 }
 
-TEST(ParetoFront, IsThatOfTheDefinitionForAnyVariantsAndBeginsWithTheFastest) {
+TEST(ParetoFront, MatchesItsDefinitionForAnyVariants) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> small(1, 12);
   for (int trial = 0; trial < 200; ++trial) {

@@ -185,7 +185,7 @@ LobeVariantErrors errors_of(double exponent, const std::string& name) {
   return LobeTruth(exponent).errors(variant_named(lobe_variants(exponent), name));
 }
 
-TEST(LobeVariants, AreOfEveryLobeInEveryPrecisionWithNamesOfTheirOwnAndSomethingToDo) {
+TEST(LobeVariants, CoverEveryLobeInEveryPrecision) {
   for (const double exponent : {1.0, 16.0, 64.5, 1e6}) {
     std::set<std::string> names;
     std::map<std::string_view, std::set<std::pair<bool, bool>>> kinds;

@@ -53,7 +53,7 @@ TEST(HardCases, VectorsOfAnyLengthAndPlaceAreShadedWithinTheBound) {
   EXPECT_GT(expect_within(vector_rows), some_lobes().size() * models().size() * 9 * 30);
 }
 
-TEST(HardCases, DensitiesAreRightDownToTheirUnderflowAndNotOnlyWhereThereIsNothing) {
+TEST(HardCases, HaveRightDensitiesDownToTheirUnderflow) {
   for (const LobeId& lobe : some_lobes()) {
     int compared = 0, above_nothing = 0;
     const Rows rows = density_rows(lobe);
@@ -153,7 +153,7 @@ TEST(TheNaiveFormula, IsThatOfItsOwnModelForEveryLobe) {
     }
 }
 
-TEST(TheNaiveFormula, MissesSpheresThatAreFarAwayAndOverflowsCoefficients) {
+TEST(TheNaiveFormula, MissesDistantSpheres) {
   int wrong = 0, infinite = 0;
   for (const Row& row : sphere_rows(*find_lobe("cosine")))
     if (row.name == "1e7 radii away") wrong = std::max(wrong, row.naive.wrong_pixels);

@@ -307,7 +307,7 @@ TEST_F(OddEngine, LeavesTheRestToAnotherNodeIfItAlwaysFailsOnOne) {
   EXPECT_EQ(kept, first.failed) << "what was not tried has not failed";
 }
 
-TEST_F(OddEngine, HasOfOurEnvironmentOnlyWhatTheListAllowsAndIsContained) {
+TEST_F(OddEngine, GetsOnlyListedVariablesOfOurEnvironment) {
   grid({"8"});
   fake_povray("echo begin; env; echo end");
   const FarmRun done = run_command(

@@ -53,7 +53,7 @@ class FarmOnCluster : public FailingFarm {
   Results local_results_;
 };
 
-TEST_F(FarmOnCluster, MakesWhatTheLocalFarmMakesThoughItsControllerIsAwayForAWhile) {
+TEST_F(FarmOnCluster, SurvivesAnAbsenceOfItsController) {
   RunningFarm farm(on_slurm(), root());
   ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
   cluster_.stop_controller();

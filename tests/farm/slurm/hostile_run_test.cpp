@@ -117,7 +117,7 @@ TEST_F(HostileRun, WritesThroughNoLinkInItsFolder) {
   EXPECT_TRUE(fs::is_empty(here("elsewhere")));
 }
 
-TEST_F(HostileRun, IsNotEndedByARecordThatWasChangedAfterItsLastElementWasSubmitted) {
+TEST_F(HostileRun, IsNotEndedByALateChangeOfItsRecord) {
   grid("16");
   const records::FarmRun planned = record_;
   const auto change = [&](auto member, const std::string& to) {

@@ -134,7 +134,7 @@ TEST(SlurmAnswers, AreReadOrRefusedFromRandomBytes) {
   }
 }
 
-TEST(SlurmAnswers, TellWhatWaitsForSomebodyFromWhatWaitsForItsTurn) {
+TEST(SlurmAnswers, TellBlockedJobsFromQueuedOnes) {
   for (const char* reason :
        {"JobHeldUser", "JobHeldAdmin", "launch failed requeued held", "PartitionDown",
         "job requeued in held state held", "DependencyNeverSatisfied"})

@@ -57,7 +57,7 @@ TEST(DirectionalAlbedo, IsForTheFirstPowerTheSkyAsATiltedPlaneSeesIt) {
         << degrees;
 }
 
-TEST(DirectionalAlbedo, IsTheSameForLightAndEyeExactlyWhereTheModelCarriesTheCosine) {
+TEST(DirectionalAlbedo, IsTheSameForLightOrEyeOnlyWithTheCosine) {
   for (const Highlight& h : some_of(highlights_of_both(every_model(), kExponents))) {
     double largest = 0;
     for (const double degrees : kIncidences) {

@@ -51,7 +51,7 @@ bool lit(const Scene& scene) {
   return std::any_of(image.values().begin(), image.values().end(), [](float v) { return v > 0; });
 }
 
-TEST(Fused, EveryHighlightLightAndEffectIsBitForBitThatOfSingleKernels) {
+TEST(Fused, EveryHighlightIsBitForBitThatOfSingleKernels) {
   const std::vector<std::vector<Light>> lightings = {
       {white()}, {directional()}, {point()}, {directional(), point()}, {point(), white(), point()}};
   std::size_t number = 0;
