@@ -139,7 +139,7 @@ TEST(ToneCurve, IsItsFormulaInDoubleToSixDigits) {
     }
 }
 
-TEST(HdrExposures, ShowTheBrightestAndTheMedianAt85PerCentOfEachCurve) {
+TEST(HdrExposures, ShowExtremesAt85PerCentOfEachCurve) {
   const Image reference = fixtures::noise(31, 31, 3, 5.0f);
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.values().size(); i += 3) {

@@ -124,7 +124,7 @@ TEST(SetOutcomes, FailForANameWithoutAReferenceIfAsked) {
   }
 }
 
-TEST(SetSummary, NamesThePairThatIsWorstByTheDirectionOfTheMetric) {
+TEST(SetSummary, NamesTheWorstPairOfEachMetric) {
   const std::vector<PairReport> pairs{compared("near.exr", 0.5f, 0.51f),
                                       compared("below.exr", 0.3f, 0.5f), broken("x.exr"),
                                       compared("same.exr", 0.5f, 0.5f)};

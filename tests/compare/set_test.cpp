@@ -157,7 +157,7 @@ TEST_F(FolderPairing, TellsFoldersOfOneNameApart) {
 
 using PatternPairing = FolderPairing;
 
-TEST_F(PatternPairing, FindsAllSetsInOneFolderByTheFieldThatTellsThemApart) {
+TEST_F(PatternPairing, FindsAllSetsOfOneFolderByAField) {
   for (const char* file : {"a/ball_mine.exr", "a/ball_ref.exr", "a/big_ball_mine.exr",
                            "a/big_ball_ref.exr", "a/cube_ref.exr", "a/ball_other.exr", "a/x.exr"})
     put(file);
@@ -248,7 +248,7 @@ TEST_F(SequencePairing, IsByTheNumberHoweverItIsWritten) {
   EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("sequences with sequences"));
 }
 
-TEST_F(SequencePairing, NamesFilesThatNearlyAreFramesAndNoOthers) {
+TEST_F(SequencePairing, NamesOnlyFilesLikeFrames) {
   for (const char* file : {"a/f.0001.exr", "b/f.0001.exr", "a/f.1.exr", "a/f.-001.exr",
                            "a/f.00002.exr", "a/f.0001.5.exr", "a/f.0003.EXR", "b/F.+0004.exr"})
     put(file);

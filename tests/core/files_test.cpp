@@ -108,7 +108,7 @@ TEST(RequireWritable, NeedsAnExistingWritableDirectory) {
     EXPECT_EQ(code_of([&] { require_writable(wrong); }), ExitCode::kOutput) << wrong;
 }
 
-TEST(RequireWritable, RefusesADirectoryThatWasRemovedWhileItIsTheCurrentOne) {
+TEST(RequireWritable, RefusesARemovedCurrentDirectory) {
   const fs::path before = fs::current_path();
   for (const fs::path& parent : {fs::temp_directory_path(), fs::path("/dev/shm")}) {
     if (!fs::is_directory(parent)) continue;

@@ -95,7 +95,7 @@ TEST_F(ChunkTest, HandsBackTheChunkOfAnotherMachineUndone) {
   EXPECT_EQ(exec_chunk(file, 1, kLeave).done, 8u);
 }
 
-TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
+TEST_F(ChunkTest, HandsBackJobsOfAnotherEngine) {
   const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
   FarmOptions options;
   options.programs = {{"povray", failing_povray()}};

@@ -187,7 +187,7 @@ TEST_F(FarmTest, WarnsOnlyOfAFilterWithoutJobs) {
   }
 }
 
-TEST_F(FarmTest, APlanNamesEveryJobThatIsThenDoneAndWhy) {
+TEST_F(FarmTest, PlansEveryJobWithItsReason) {
   const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
   std::map<std::string, std::string> jobs;
   const auto plan = [&](const Grid& g, const FarmOptions& options = {}) {

@@ -118,7 +118,7 @@ TEST(GalleryPages, NeedAFarm) {
   EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
 }
 
-TEST(GalleryPages, AreCompleteInTheirOwnDirectoryAndUnchangedASecondTime) {
+TEST(GalleryPages, AreUnchangedASecondTime) {
   const FakeFarm farm;
   const TemporaryDirectory scratch;
   GalleryOptions options;

@@ -28,7 +28,7 @@ class ReferenceCommand : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ReferenceCommand, HasAnExitCodeAndAReasonForWhatItCannotDo) {
+TEST_F(ReferenceCommand, ExplainsEachRefusalWithAnExitCode) {
   struct {
     std::vector<std::string> options;
     int exit_code;

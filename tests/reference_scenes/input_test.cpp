@@ -224,7 +224,7 @@ TEST(NotComparable, IsALampOnASphereInEveryProgramUnlessItFacesAway) {
   EXPECT_THAT(povray->why_not(scene, {}), HasSubstr("lies on sphere 0"));
 }
 
-TEST(NotComparable, IsALampThatPovraysShadowsDoNotTellFromOneInThePlane) {
+TEST(NotComparable, IsALampTooNearAPlaneForPovRay) {
   const auto povray = make_engine("povray", {}), blender = make_engine("blender", {});
   const auto why = [&](double height, Vec3 normal = {}) {
     const Scene scene =

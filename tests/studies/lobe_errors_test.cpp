@@ -288,7 +288,7 @@ TEST(LobeTable, HasEveryVariantWithItsTimeErrorsAndOperations) {
   EXPECT_THAT(table.remarks, Contains(HasSubstr("a bracket: the largest found")));
 }
 
-TEST(LobeLevel, HasATableForEachExponentAndForBothAnglesInHalfFloats) {
+TEST(LobeLevel, HasATableForEachExponent) {
   Options options;
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);

@@ -150,7 +150,7 @@ class FarmOnClusterOfMyEngine : public FarmOnCluster {
   }
 };
 
-TEST_F(FarmOnClusterOfMyEngine, MakesWhatTheLocalFarmMakesAndMakesItOnce) {
+TEST_F(FarmOnClusterOfMyEngine, MatchesTheLocalFarm) {
   const FarmRun refused = run_command(on_slurm());
   EXPECT_EQ(refused.exit_code, 2) << refused.output;
   std::vector<std::string> words = on_slurm();

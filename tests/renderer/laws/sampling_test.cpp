@@ -33,7 +33,7 @@ TEST(EverySampler, DrawsAHighlightAsOftenAsItsPdfSays) {
   expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), false);
 }
 
-TEST(EverySampler, DrawsAHighlightOverADiffuseBaseAsOftenAsItsPdfSays) {
+TEST(EverySampler, DrawsDirectionsAsOftenAsItsPdf) {
   expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), true);
 }
 
