@@ -35,7 +35,7 @@ class CheckShaderCommand : public NeedsShaderRunner {
   const TemporaryDirectory directory_;
 };
 
-TEST_F(CheckShaderCommand, PrintsWhatTheTutorialSays) {
+TEST_F(CheckShaderCommand, PrintsTheOutputOfTheTutorial) {
   const std::string page = tutorial(), shader = block_of(page, "glsl");
   write("mine.glsl", shader);
   const ProcessResult result =

@@ -5,7 +5,7 @@
 namespace lobelia {
 namespace {
 
-TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
+TEST(FarmCommand, ReportsHowEnginesAreContained) {
   const TemporaryDirectory directory;
   // The caller may have given us a namespace without a /proc of its own.
   const auto here =

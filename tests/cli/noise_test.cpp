@@ -182,7 +182,7 @@ TEST_F(CompareWithVariances, FindVariancesBesideTheirPictures) {
          ExitCode::kSuccess);
 }
 
-TEST_F(CompareWithVariances, RefuseWhatIsNoneOrNotComplete) {
+TEST_F(CompareWithVariances, RefuseIncompleteVariances) {
   const auto refused = [&](std::vector<std::string> more, int code, const char* why) {
     more.insert(more.begin(), {"mine/x.exr", "references/x.exr"});
     const auto result = compare(more);

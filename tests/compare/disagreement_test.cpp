@@ -57,7 +57,7 @@ TEST(Disagreement, IsOnlyFlaggedBetweenFamilies) {
   EXPECT_THAT(of(result("rmse", 0, 0.01), result("flip.ldr.mean", 0, 0.01)), IsEmpty());
 }
 
-TEST(Disagreement, IsNotMadeOfWhatWasNotMeasured) {
+TEST(Disagreement, IgnoresUnmeasuredMetrics) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(of(result("ssim", nan, 0.99), result("rmse", 0, 0.01)), IsEmpty());
 }

@@ -162,7 +162,7 @@ TEST(HdrExposures, ShowExtremesAt85PerCentOfEachCurve) {
   }
 }
 
-TEST(HdrExposures, KeepWhatIsGiven) {
+TEST(HdrExposures, KeepGivenExposures) {
   const Image reference = fixtures::noise(31, 31, 3, 5.0f);
   const HdrExposures all = automatic_exposures(reference);
   HdrExposures asked{0, 4, 2, true};

@@ -102,7 +102,7 @@ TEST(HighlightsTable, HasNothingMissedBesideALightOfAnyBrightness) {
     }
 }
 
-TEST(HighlightsTable, SaysWhatWasChanged) {
+TEST(HighlightsTable, NamesEachChange) {
   std::mt19937 random(57);
   int lines = 0;
   for (int round = 0; round < 40; ++round) {

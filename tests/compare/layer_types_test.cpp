@@ -335,7 +335,7 @@ class LayerSensitivity : public LayerFiles {
   }
 };
 
-TEST_F(LayerSensitivity, FindsWhatMattersOfEveryType) {
+TEST_F(LayerSensitivity, FindsChangesInEveryTypeOfLayer) {
   std::mt19937 random(12);
   std::uniform_real_distribution<float> unit(0.1f, 1);
   std::normal_distribution<float> normal;

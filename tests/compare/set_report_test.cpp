@@ -143,7 +143,7 @@ TEST(SetSummary, NamesTheWorstPairOfEachMetric) {
   for (const MetricSummary& one : summaries) EXPECT_NE(one.id, "max_abs.x") << "a fact";
 }
 
-TEST(SetRecord, HoldsEveryPairsRecordAndWhatHadNone) {
+TEST(SetRecord, HoldsARecordForEveryName) {
   SetReport report = set_of({compared("good.exr", 0.5f, 0.5f), broken("x.exr")});
   report.missing = {"gone.exr"};
   report.passed_over = 3;

@@ -168,7 +168,7 @@ TEST(PartFile, TakesTheContentOfAnotherFile) {
   EXPECT_EQ(read_file(directory.path() / "to", 1'000'000), "before " + text + " after");
 }
 
-TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
+TEST(WriteFile, KeepsTheOldFileIfTheNewOneDoesNotFit) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";
   write_file(path, "old");

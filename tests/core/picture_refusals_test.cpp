@@ -120,7 +120,7 @@ void write_deep_exr(const std::filesystem::path& path, bool with_flat) {
   part.writePixels(1);
 }
 
-TEST_F(Refusals, NameThePartOfADeepExrAndWhatToDo) {
+TEST_F(Refusals, NameThePartOfADeepExr) {
   const auto path = directory_.path() / "a.exr";
   write_deep_exr(path, false);
   EXPECT_THAT(refusal(path), HasSubstr("it is deep: a pixel has any number of samples; flatten it "

@@ -81,7 +81,7 @@ TEST(HalfPicture, HasItsLargestValueInRangeHoweverBrightOrDarkItIs) {
   }
 }
 
-TEST(HalfPicture, KeepsWhatIsNotFinite) {
+TEST(HalfPicture, KeepsNonfiniteValues) {
   Image image = noise(5, 4, 2);
   image.pixel(1, 1)[0] = std::numeric_limits<float>::infinity();
   image.pixel(2, 1)[1] = -std::numeric_limits<float>::infinity();

@@ -91,7 +91,7 @@ TEST_F(CostPage, ExplainsTheFrontWithItsMeasurement) {
   EXPECT_THAT(text, HasSubstr("1.00 ns"));
 }
 
-TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
+TEST_F(CostPage, ShowsCountsWithoutTimes) {
   records::Cost record = cost_record();
   record.tables[0].unit = "bit operations";
   for (records::CostVariant& one : record.tables[0].variants) {

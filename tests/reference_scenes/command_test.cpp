@@ -48,7 +48,7 @@ TEST_F(ReferenceCommand, ExplainsEachRefusalWithAnExitCode) {
   }
 }
 
-TEST_F(ReferenceCommand, KeepsWhatTheEngineIsGiven) {
+TEST_F(ReferenceCommand, KeepsTheInputOfTheEngine) {
   const fs::path kept = directory_.path() / "kept";
   // The engine itself may be missing: what it would be given is written first.
   for (const std::string engine : {"povray", "blender"})

@@ -227,7 +227,7 @@ TEST(EdgeRing, RunsAboutTheSilhouetteOfASphereLitFromTheCamera) {
   EXPECT_GT(std::count(edges.begin(), edges.end(), 1), int(2 * 3.14 * radius));
 }
 
-TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
+TEST(Evaluation, RefusesUnknownInputInWords) {
   const auto refuses = [](const char* word, auto change) {
     Scene scene = hall_scene(kPhong, 8);
     ASSERT_EQ(truth::why_not_evaluated(scene), "");

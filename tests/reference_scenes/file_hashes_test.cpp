@@ -117,7 +117,7 @@ TEST_F(ContentTest, IsNotMadeOfAFileThatAFaultHides) {
   EXPECT_EQ(reader.content().files.size(), 2u);
 }
 
-TEST_F(ContentTest, SaysWhatIsWrongWithAHugeFile) {
+TEST_F(ContentTest, ExplainsTheRefusalOfAHugeFile) {
   FileHashes hashes{fs::path()};
   ContentReader reader(hashes);
   const fs::path huge = file("huge.bin", "");

@@ -223,7 +223,7 @@ TEST(EnvironmentImage, MayBeOfOnePixelBlackOrEven) {
   }
 }
 
-TEST(SmoothLuminance, LeavesAtMostFourTimesTheMeanOfWhatIsBelowIt) {
+TEST(SmoothLuminance, IsAtMostFourTimesTheMeanBelowIt) {
   const auto smooth = [](const std::function<float(int, int)>& value) {
     return smooth_luminance(*sky(value));
   };

@@ -216,7 +216,7 @@ TEST(EveryExport, NamesItsSources) {
     }
 }
 
-TEST(AnExport, HasWhatSeveralModelsShareOnce) {
+TEST(AnExport, HasSharedFunctionsOnce) {
   const std::string text = shader_text({*find_shader_language("glsl"),
                                         {all_models().begin(), all_models().end()},
                                         *find_lobe("cs16"),

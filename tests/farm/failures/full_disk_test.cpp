@@ -69,7 +69,7 @@ TEST_F(Disk, MayBeFullWhereTheFarmsDirectoryIs) {
   }
 }
 
-TEST_F(Disk, ServesWhatItHasIfItIsReadOnly) {
+TEST_F(Disk, ServesItsResultsIfReadOnly) {
   ASSERT_EQ(run().exit_code, 0);
   fs::remove_all(out());
   const std::string said = in_namespace(

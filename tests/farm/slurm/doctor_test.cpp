@@ -75,7 +75,7 @@ TEST_F(Doctor, SeesLimitsThatHurt) {
   EXPECT_EQ(only_complaint().name, "SlurmdTimeout");
 }
 
-TEST_F(Doctor, SeesAPartitionThatIsNotThereOrHasNoNodeOfUse) {
+TEST_F(Doctor, SeesAPartitionWithoutUsableNodes) {
   checked.slurm.partition = "none";
   EXPECT_THAT(only_complaint().found, HasSubstr("'none'"));
   checked.slurm.partition = "";

@@ -156,7 +156,7 @@ TEST_F(FakeSlurm, IsNamedIfItIsNotThere) {
   EXPECT_THAT(message, AllOf(HasSubstr("sbatch"), HasSubstr("sinfo"), HasSubstr("$PATH")));
 }
 
-TEST_F(FakeSlurm, IsAttachedToAndGivenNothingWhileJobsOfTheRunLive) {
+TEST_F(FakeSlurm, GetsNothingNewWhileTheRunLives) {
   jobs(1);
   fake("squeue", R"(
 case "$*" in *--me*) [ -e "$d/done" ] || echo '55|RUNNING|lobelia 1-0'; exit 0;; esac

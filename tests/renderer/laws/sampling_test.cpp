@@ -37,7 +37,7 @@ TEST(EverySampler, DrawsDirectionsAsOftenAsItsPdf) {
   expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), true);
 }
 
-TEST(EverySampler, DrawsABlackSurfaceEvenlyAndSaysSo) {
+TEST(EverySampler, DrawsABlackSurfaceEvenly) {
   for (const Highlight& h : highlights(every_model(), std::array{16.0})) {
     Material black = material(h, false);
     black.specular_reflectance = {};
