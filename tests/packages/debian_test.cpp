@@ -92,7 +92,7 @@ def test_installed(lobelia_compare):
 };
 Scratch* Debian::made = nullptr;
 
-TEST_F(Debian, PackagesDependOnWhatTheyNeed) {
+TEST_F(Debian, DeclaresItsDependencies) {
   for (const char* needed : {"libopenimageio", "libopencolorio", "libembree", "libglpk"})
     EXPECT_THAT(field(library(), "Depends"), HasSubstr(needed)) << "for its modules";
   EXPECT_THAT(field("lobelia", "Depends"), HasSubstr(library() + " (= "));

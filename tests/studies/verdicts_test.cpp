@@ -70,7 +70,7 @@ TEST(Verdicts, UsePicturesWithOneExpectation) {
   }
 }
 
-TEST(VerdictReport, NamesWhatIsOutsideAndDrawsACurveForEachCell) {
+TEST(VerdictReport, DrawsACurveForEachCell) {
   records::VerifyVerdicts verdicts;
   verdicts.significance = 0.01;
   verdicts.seeds = 100;
