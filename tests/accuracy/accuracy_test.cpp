@@ -55,7 +55,7 @@ void hold(const Scene& scene, const std::vector<std::string>& accuracies) {
   }
 }
 
-TEST(Accuracy, IsReachedByTheCanonicalScenesAndCostsMoreTheMoreIsAsked) {
+TEST(Accuracy, IsReachedByTheCanonicalScenes) {
   for (const char* name : kScenes)
     for (const double exponent : kExponents) {
       SCOPED_TRACE(::testing::Message() << name << ", n = " << exponent);
@@ -65,7 +65,7 @@ TEST(Accuracy, IsReachedByTheCanonicalScenesAndCostsMoreTheMoreIsAsked) {
     }
 }
 
-TEST(Accuracy, IsReachedWhateverModelAndLobeTheSceneHas) {
+TEST(Accuracy, IsReachedForEveryModelWithEveryLobe) {
   for (const ModelId model : all_models())
     for (const char* lobe : {"schlick", "cs16", "gauss", "cs10"}) {
       SCOPED_TRACE(::testing::Message() << info(model).name << ", " << lobe);
@@ -75,7 +75,7 @@ TEST(Accuracy, IsReachedWhateverModelAndLobeTheSceneHas) {
     }
 }
 
-TEST(Accuracy, IsReachedByAPictureOfWhichOnlySomePixelsAreLookedAt) {
+TEST(Accuracy, IsReachedByAPartlyMeasuredPicture) {
   Scene s = scene("two_spheres", 400);
   s.film.width = 517;
   hold(s, {"1e-1", "1e-2", "1e-3"});
@@ -119,7 +119,7 @@ TEST(Accuracy, TakesMoreSamplesForASmallerError) {
   EXPECT_NO_THROW(few(error.substr(at + 11).c_str())) << "the best possible is possible";
 }
 
-TEST(Accuracy, KeepsTheScenesOwnLobeWhereItIsTheCheapestThatWillDo) {
+TEST(Accuracy, KeepsTheScenesLobeIfItIsTheCheapest) {
   const Scene s = with_highlight(scene("head_on"), 250.5, "cosine");
   const auto cosine = *find_lobe("cosine");
   EXPECT_EQ(choose(s, parse_accuracy("1e-6")).lobe, cosine);

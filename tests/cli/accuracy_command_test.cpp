@@ -42,7 +42,7 @@ TEST(RenderAccuracy, CanSkipTheMeasurementOfTheErrorReached) {
   EXPECT_FALSE(record["accuracy"].contains("reached"));
 }
 
-TEST(RenderAccuracy, FailsOutOfReachNamesTheBestAndLeavesNothing) {
+TEST(RenderAccuracy, FailsIfTheErrorIsOutOfReach) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "effects/area_light.xml",
                              {"--accuracy", "1e-6", "--max-samples", "4", "-q"});
@@ -52,7 +52,7 @@ TEST(RenderAccuracy, FailsOutOfReachNamesTheBestAndLeavesNothing) {
   EXPECT_EQ(files_in(directory.path()), 0u);
 }
 
-TEST(RenderAccuracy, RefusesNonsenseAndWhatItChoosesItself) {
+TEST(RenderAccuracy, RefusesOptionsChosenByItself) {
   const TemporaryDirectory directory;
   for (const char* text : {"0", "-1", "nan", "ten", "de2000=", "flip=1"}) {
     const auto result = render(directory, "head_on.xml", {"--accuracy", text});

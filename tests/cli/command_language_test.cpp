@@ -95,7 +95,7 @@ TEST(Help, IsAWordTooAsIsVersion) {
   EXPECT_EQ(printed({"version"}), printed({"-V"}));
 }
 
-TEST(TimeLimit, EndsEveryCommandThatWorksForLongWithItsOwnExitCode) {
+TEST(TimeLimit, EndsLongCommandsWithItsOwnExitCode) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"models"},
                                                     {"search", "--error", "1e-3"},
                                                     {"cost", "--quick"},

@@ -200,7 +200,7 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   refused({"--junit", "out/x.exr.png", "--diff-image", "out"}, taken);
 }
 
-TEST_F(CompareFolders, WriteNoDifferencePictureOverAPictureThatALinkLeadsTo) {
+TEST_F(CompareFolders, WriteNoDifferenceOverALinkedPicture) {
   put("a/x.exr", 0.1f), put("b/x.exr", 0.2f), put("a/deep/x.exr", 0.1f), put("b/deep/x.exr", 0.2f);
   put("error.exr", 0.1f);
   const auto refused = [&](const std::string& out, std::vector<std::string> more) {

@@ -16,7 +16,7 @@ using namespace fixtures;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-TEST_F(ComparePictures, RefusesWhatIsNoPictureInOneLine) {
+TEST_F(ComparePictures, RefusesFilesWithoutAPictureInOneLine) {
   const std::string good = good_exr();
   const auto expect_refused = [&](const std::string& name, const std::string& why) {
     for (const auto& [a, b] : {std::pair(name, std::string("good.exr")), {"good.exr", name}}) {

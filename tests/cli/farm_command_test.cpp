@@ -5,7 +5,7 @@
 namespace lobelia {
 namespace {
 
-TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
+TEST(FarmCommand, ReportsHowEnginesAreContained) {
   const TemporaryDirectory directory;
   // The caller may have given us a namespace without a /proc of its own.
   const auto here =
@@ -82,7 +82,7 @@ TEST(FarmCommand, RepairsFilesReportedByItsGallery) {
   expect_found("changed", "cell.json is not the record that the farm wrote");
 }
 
-TEST(FarmCommand, GivesNoisyCellsTheVerdictsThatItsGalleryFindsAgain) {
+TEST(FarmCommand, GivesNoisyCellsTheVerdictsOfItsGallery) {
   const TemporaryDirectory directory;
   std::filesystem::create_symlink(kScenes + "effects", directory.path() / "effects");
   write_file(directory.path() / "grid.xml",
@@ -95,7 +95,7 @@ TEST(FarmCommand, GivesNoisyCellsTheVerdictsThatItsGalleryFindsAgain) {
   EXPECT_EQ(published.exit_code, 0) << published.output_tail;
 }
 
-TEST(FarmCommand, SaysAtOnceThatItsGalleryCannotBeWritten) {
+TEST(FarmCommand, FailsUpFrontIfItsGalleryCannotBeWritten) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());
   write_file(directory.path() / "site", std::string_view("a file"));

@@ -53,7 +53,7 @@ TEST_F(SceneCommand, WritesNothingIfAFormatCannotHoldTheScene) {
   EXPECT_EQ(files_in(directory_.path()), 0u);
 }
 
-TEST_F(SceneCommand, ReadsMitsubaAndWarnsOfEachPartThatItDoesNot) {
+TEST_F(SceneCommand, WarnsOfEachUnreadPartOfAMitsubaScene) {
   ASSERT_EQ(run("\"$SCENES\"oblique_45.xml --to mitsuba --model modified_phong -o mi").exit_code,
             0);
   ASSERT_EQ(

@@ -199,7 +199,7 @@ TEST_F(StandardStreams, AMessageWaitsForItsReaderAndIsWhole) {
   EXPECT_TRUE(text.ends_with("\n")) << text;
 }
 
-TEST_F(StandardStreams, AMessageThatNobodyReadsDoesNotKeepSigtermWaiting) {
+TEST_F(StandardStreams, EndOnSigtermDespiteAnUnreadMessage) {
   FullPipe pipe;
   const pid_t pid = pipe.start({"plan", "missing.xml"});
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -139,7 +139,7 @@ TEST(ToneCurve, IsItsFormulaInDoubleToSixDigits) {
     }
 }
 
-TEST(HdrExposures, ShowTheBrightestAndTheMedianAt85PerCentOfEachCurve) {
+TEST(HdrExposures, ShowExtremesAt85PerCentOfEachCurve) {
   const Image reference = fixtures::noise(31, 31, 3, 5.0f);
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.values().size(); i += 3) {
@@ -162,7 +162,7 @@ TEST(HdrExposures, ShowTheBrightestAndTheMedianAt85PerCentOfEachCurve) {
   }
 }
 
-TEST(HdrExposures, KeepWhatIsGiven) {
+TEST(HdrExposures, KeepGivenExposures) {
   const Image reference = fixtures::noise(31, 31, 3, 5.0f);
   const HdrExposures all = automatic_exposures(reference);
   HdrExposures asked{0, 4, 2, true};

@@ -128,7 +128,7 @@ TEST(Highlight, DiffersFromBlackOrWarnsOfBlindLimits) {
               HasSubstr("max_rel_peak has two limits"));
 }
 
-TEST(Highlight, LimitsAddToTheDefaultsAndReplaceTheOneOnTheSameMetric) {
+TEST(Highlight, AddsLimitsToTheDefaults) {
   const Image reference = picture_of(200);
   ComparisonOptions options = as_by_default();
   options.limits = {{"rmse", 1e6}, {"max_rel_peak", 0.5}};

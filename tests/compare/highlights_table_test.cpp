@@ -102,7 +102,7 @@ TEST(HighlightsTable, HasNothingMissedBesideALightOfAnyBrightness) {
     }
 }
 
-TEST(HighlightsTable, SaysWhatWasChanged) {
+TEST(HighlightsTable, NamesEachChange) {
   std::mt19937 random(57);
   int lines = 0;
   for (int round = 0; round < 40; ++round) {
@@ -168,7 +168,7 @@ TEST(HighlightsTable, HasTheFiguresThatAreJudged) {
   }
 }
 
-TEST(HighlightsTable, SaysThatABroadOneCarriesANarrowOneInAAlone) {
+TEST(HighlightsTable, FindsAnExtraHighlightOnABroadOne) {
   const Beside broad{{80, 60, 0.7, 40, 40}, 0.2, 800, 12, 12},
       narrow{{80, 60, 2.5, 3, 3}, 0, 0, 12, 12};
   const Image reference = broad.with(), highlight = narrow.with();
@@ -336,7 +336,7 @@ Image with_filtered_noise(const Image& clean, std::mt19937& random) {
   return filtered;
 }
 
-TEST(HighlightsTable, TakesNoFilteredNoiseForAHighlightThatTheReferenceLacks) {
+TEST(HighlightsTable, TakesNoFilteredNoiseForAHighlight) {
   const Image clean = Beside{{80, 60, 1, 8, 8}, 0.2, 0.2, 12, 12}.with();
   std::mt19937 random(61);
   for (int round = 0; round < 60; ++round) {

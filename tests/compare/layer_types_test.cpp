@@ -269,7 +269,7 @@ TEST_F(Vectors, DifferIfTheyAreLost) {
   EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
 }
 
-TEST_F(LayerFiles, ATypeThatIsGivenReplacesTheOneThatWasTold) {
+TEST_F(LayerFiles, TakeTheGivenTypeBeforeTheirOwn) {
   const std::vector<float> ones(kPixels, 1.0f), more(kPixels, 1.000001f);
   file("a.exr", {{"mine", more}});
   file("b.exr", {{"mine", ones}});
@@ -335,7 +335,7 @@ class LayerSensitivity : public LayerFiles {
   }
 };
 
-TEST_F(LayerSensitivity, FindsWhatMattersOfEveryType) {
+TEST_F(LayerSensitivity, FindsChangesInEveryTypeOfLayer) {
   std::mt19937 random(12);
   std::uniform_real_distribution<float> unit(0.1f, 1);
   std::normal_distribution<float> normal;

@@ -75,7 +75,7 @@ PixelFlags random_mask(std::size_t pixels, unsigned seed) {
   return mask;
 }
 
-TEST(MaskedFigures, AreThoseOfPlainLoopsOverThePixelsInsideAndOutside) {
+TEST(MaskedFigures, EqualThoseOfPlainLoops) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Image a = fixtures::noise(37, 29, seed, 1.0f),
                 b = fixtures::noise(37, 29, seed + 9, 1.0f);

@@ -186,7 +186,7 @@ TEST(MetricLaws, TheBestValueAndBothEndsOfARangeAreLimits) {
     }
 }
 
-TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
+TEST(Limits, AreCorrectedIfBeyondTheRange) {
   const auto problem = [](const char* id, double limit) {
     return limit_problem(*find_metric_output(id), limit);
   };

@@ -57,7 +57,7 @@ TEST(NoiseDraws, HaveTheVarianceOfTheMeanForAnyNumberOfReplicates) {
   }
 }
 
-TEST(NoiseDraws, KeepWhatChannelsOfReplicatesHaveInCommon) {
+TEST(NoiseDraws, KeepTheCorrelationOfChannels) {
   for (const int count : {2, 3, 9}) {
     const Moments drawn = moments(mean_of_normal(count, true).noise, Together::kNothing, 6);
     EXPECT_NEAR(drawn.product / std::sqrt(drawn.first * drawn.second), 1, 1e-6) << count;

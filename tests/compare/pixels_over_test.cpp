@@ -100,7 +100,7 @@ TEST(PixelsOver, AThresholdAreThoseOfAPlainLoopOverTheCodes) {
   }
 }
 
-TEST(PixelsOver, AnyThresholdIsFoundInItsShortestFormAndNothingElseIs) {
+TEST(PixelsOver, TakesAnyThresholdInItsShortestForm) {
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
       const std::size_t any = output.id.find("=0");

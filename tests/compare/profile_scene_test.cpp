@@ -35,7 +35,7 @@ TEST(ProfileScene, HasTheRenderersHighlightOnTheFormulaForEveryModel) {
   }
 }
 
-TEST(ProfileScene, MeasuresTheHalfWidthOfTheLobeOnTheWholeAndToBothSides) {
+TEST(ProfileScene, MeasuresHalfWidthsToBothSides) {
   const Scene scene = scene_with("phong_rdf", 32);
   const Image analytic = analytic_image(scene, 0);
   const Json record = as_json(profile_scene(scene, 0, 0, {{"a", &analytic}}));

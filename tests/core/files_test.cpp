@@ -108,7 +108,7 @@ TEST(RequireWritable, NeedsAnExistingWritableDirectory) {
     EXPECT_EQ(code_of([&] { require_writable(wrong); }), ExitCode::kOutput) << wrong;
 }
 
-TEST(RequireWritable, RefusesADirectoryThatWasRemovedWhileItIsTheCurrentOne) {
+TEST(RequireWritable, RefusesARemovedCurrentDirectory) {
   const fs::path before = fs::current_path();
   for (const fs::path& parent : {fs::temp_directory_path(), fs::path("/dev/shm")}) {
     if (!fs::is_directory(parent)) continue;
@@ -168,7 +168,7 @@ TEST(PartFile, TakesTheContentOfAnotherFile) {
   EXPECT_EQ(read_file(directory.path() / "to", 1'000'000), "before " + text + " after");
 }
 
-TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
+TEST(WriteFile, KeepsTheOldFileIfTheNewOneDoesNotFit) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";
   write_file(path, "old");

@@ -36,7 +36,7 @@ TEST(GroupFlush, CallsEachOnceAfterAllItsFilesAreThere) {
   EXPECT_EQ(failures, 0);
 }
 
-TEST(GroupFlush, TellsWhatFailsAndGoesOn) {
+TEST(GroupFlush, GoesOnAfterAFailure) {
   const TemporaryDirectory directory;
   fs::create_symlink("loop", directory.path() / "loop");
   std::atomic<int> failures = 0, calls = 0;

@@ -100,7 +100,7 @@ TEST(Process, CountsTheTimeOfItsChildren) {
   EXPECT_LT(idle.peak_memory_bytes, 67108864u);
 }
 
-TEST(Process, ReadsWhatItIsGivenAndNothingOtherwise) {
+TEST(Process, ReadsOnlyItsGivenInput) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
   ASSERT_EQ(::write(ends[1], "words\n", 6), 6);

@@ -167,7 +167,7 @@ void fill(const fs::path& top, std::mt19937& random, int depth, const fs::path& 
   }
 }
 
-TEST_F(RemovalTest, ADryRunTellsExactlyWhatGoesAndTakesNothing) {
+TEST_F(RemovalTest, ListsTheSameEntriesInADryRun) {
   std::mt19937 random(19);
   std::size_t told = 0;
   for (int round = 0; round < 40; ++round) {

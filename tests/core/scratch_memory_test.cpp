@@ -39,7 +39,7 @@ TEST_F(ScratchMemory, KeepsItsContentOutsideOfMemory) {
   }
 }
 
-TEST_F(ScratchMemory, HoldsWhatIsASixteenthOfAPictureWhileThePictureIsThere) {
+TEST_F(ScratchMemory, HoldsSmallPiecesBesideALargePicture) {
   keep_large_pieces_in_files(16 * kSmall);
   const auto leaves_memory = [] {
     const Memory part(kSmall, 1);

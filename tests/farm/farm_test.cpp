@@ -106,7 +106,7 @@ TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
             read_file(in_cell("n16", "lobelia.exr"), 1 << 24));
 }
 
-TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
+TEST_F(FarmTest, MakesOnlyMissingResultsInASecondRun) {
   run_farm(grid("16, 32"), out(), {});
   const auto before = fs::last_write_time(in_cell("n16", "lobelia.exr"));
   FarmSummary summary = run_farm(grid("16, 32"), out(), {});
@@ -187,7 +187,7 @@ TEST_F(FarmTest, WarnsOnlyOfAFilterWithoutJobs) {
   }
 }
 
-TEST_F(FarmTest, APlanNamesEveryJobThatIsThenDoneAndWhy) {
+TEST_F(FarmTest, PlansEveryJobWithItsReason) {
   const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
   std::map<std::string, std::string> jobs;
   const auto plan = [&](const Grid& g, const FarmOptions& options = {}) {

@@ -124,7 +124,7 @@ TEST(GridReader, TakesOnlyAnAddressOfTheWebForThatOfAStudy) {
                 testing::HasSubstr("allowed: an address that begins with https://"));
 }
 
-TEST(GridReader, SaysOfEveryWrongChoiceWhatIsThere) {
+TEST(GridReader, ListsTheChoicesForAWrongOne) {
   const std::string axes = kScene + axis("model", "phong_rdf, modified_phong, blinn_phong_rdf") +
                            axis("exponent", "16, 128");
   const std::pair<const char*, const char*> bad[] = {
@@ -223,7 +223,7 @@ TEST(GridReader, TellsNamesInOtherAlphabetsApart) {
   EXPECT_EQ(cells[2].id, "___");
 }
 
-TEST(GridReader, BoundsWhatAHostileFileAsksFor) {
+TEST(GridReader, BoundsTheSizeOfAHostileGrid) {
   EXPECT_THAT(error_of(kScene + axis("exponent", numbers(10001))),
               testing::HasSubstr("over 10000 values on the axis 'exponent'; allowed: 10000"));
   std::string exclude;

@@ -82,7 +82,7 @@ TEST(GalleryPages, ShowNumbersCurvesPlanAndCommandsOfACell) {
   }
 }
 
-TEST(GalleryPages, SayInWordsWhatIsMissing) {
+TEST(GalleryPages, NameMissingPartsInWords) {
   const FakeFarm farm;
   std::ofstream(farm.cell_directory(FakeFarm::kPass) / "lobelia.png") << "no picture";
   write_file(farm.cell_directory(FakeFarm::kDiffers) / "lobelia-povray.json", "{ broken");
@@ -118,7 +118,7 @@ TEST(GalleryPages, NeedAFarm) {
   EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
 }
 
-TEST(GalleryPages, AreCompleteInTheirOwnDirectoryAndUnchangedASecondTime) {
+TEST(GalleryPages, AreUnchangedASecondTime) {
   const FakeFarm farm;
   const TemporaryDirectory scratch;
   GalleryOptions options;

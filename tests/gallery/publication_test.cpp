@@ -233,7 +233,7 @@ TEST(Publication, RefusesADirectoryThatIsNotItsOwn) {
     EXPECT_FALSE(fs::exists(farm.directory() / name)) << name;
 }
 
-TEST(Publication, IsKnownAgainAfterAKillAndLosesItsUnfinishedFiles) {
+TEST(Publication, IsRecognisedAfterAKill) {
   const TemporaryDirectory place;
   const fs::path site = place.path() / "site", empty = place.path() / "empty";
   const std::set<std::string> own{"index.html", "comparison.json"};

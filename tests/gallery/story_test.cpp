@@ -47,7 +47,7 @@ TEST(Story, TellsEdgesFromPixelsWithoutAKnownCause) {
   EXPECT_THAT(story_of(comparison, "POV-Ray"), HasSubstr("The record does not say why."));
 }
 
-TEST(Story, SaysNothingOfWhatCannotBeTrusted) {
+TEST(Story, OmitsUntrustedFigures) {
   CheckedComparison comparison = compared(0.00041);
   comparison.doubt = CellStatus::kDamaged;
   EXPECT_EQ(story_of(comparison, "POV-Ray"), "");

@@ -91,7 +91,7 @@ TEST_F(CostPage, ExplainsTheFrontWithItsMeasurement) {
   EXPECT_THAT(text, HasSubstr("1.00 ns"));
 }
 
-TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
+TEST_F(CostPage, ShowsCountsWithoutTimes) {
   records::Cost record = cost_record();
   record.tables[0].unit = "bit operations";
   for (records::CostVariant& one : record.tables[0].variants) {
@@ -279,7 +279,7 @@ class BenchPage : public StudyPage {
   }
 };
 
-TEST_F(BenchPage, ShowsTheLastRunAndEachGoalOverAllThatHaveIt) {
+TEST_F(BenchPage, ShowsTheLastRunWithTheHistoryOfEachGoal) {
   records::Bench record{{run_of("abc1", 84), run_of("abc2", 96), run_of("abc3", 112)}};
   record.runs[0].goals.pop_back();
   const std::string text = put(record);

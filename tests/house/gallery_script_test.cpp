@@ -58,7 +58,7 @@ TEST_F(GalleryScript, ExitsWithTheWorstFailure) {
   }
 }
 
-TEST_F(GalleryScript, MakesTheGalleryAfterTheFarmAndAgainWhenAllIsMeasured) {
+TEST_F(GalleryScript, RefreshesTheGalleryAfterMeasurements) {
   EXPECT_EQ(run(0), 0);
   const std::size_t first = calls.find("gallery|"), last = calls.rfind("gallery|");
   EXPECT_LT(calls.find("farm|"), first);

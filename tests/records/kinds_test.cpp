@@ -191,7 +191,7 @@ TEST_P(EveryKind, RefusesAnotherTypeAtAnyPlace) {
   EXPECT_GT(refused, 0u);
 }
 
-TEST_P(EveryKind, RefusesToLackWhatItsSchemaRequires) {
+TEST_P(EveryKind, RequiresTheKeysOfItsSchema) {
   const Json good = RandomRecords(GetParam(), 1).record();
   const Json schema = Json::parse(schema_text(GetParam()));
   for (const auto& key : schema["required"]) {

@@ -327,7 +327,7 @@ TEST_P(FakeBlender, RendersManyScenesInFewProcesses) {
   EXPECT_THAT(first_ones, testing::AllOf(testing::Ge(1u), testing::Le(2u)));
 }
 
-TEST_P(FakeBlender, CostsOneSceneWhenItDiesAndGoesOnInANewProcess) {
+TEST_P(FakeBlender, CostsOneSceneWhenItDies) {
   // In the middle of a scene; and between two, when the next is in nobody's hands.
   std::map<FailureClass, int> ends;
   for (const auto& [scene, result] :

@@ -107,7 +107,7 @@ TEST_P(NativeEngine, ShowsColouredLightsOverADiffuseBase) {
   expect_within_floor(shown(scenes));
 }
 
-TEST_P(NativeEngine, ShowsWhatIsJustBeforeTheCamera) {
+TEST_P(NativeEngine, ShowsSurfacesJustBeforeTheCamera) {
   std::vector<Scene> scenes = shown(highlights({100}));
   ASSERT_GE(scenes.size(), 2u);
   for (Scene& scene : scenes) {
@@ -137,7 +137,7 @@ TEST_P(NativeEngine, ShowsPointLightsOrShadows) {
   expect_within_floor(shown(scenes));
 }
 
-TEST_P(NativeEngine, SaysInASentenceWhatItCannotShow) {
+TEST_P(NativeEngine, SaysInASentenceWhyItCannotShowAScene) {
   Scene scene = shown(highlights({10}))[0];
   const auto why = [&](const auto& change) {
     Scene changed = scene;

@@ -38,7 +38,7 @@ TEST(Plan, UsesMoreDigitsForSharperHighlights) {
   }
 }
 
-TEST(Plan, ALobeThatEndsSteeplyAtTheHorizonIsShadedInFloat64) {
+TEST(Plan, UsesFloat64ForLobesWithASteepEnd) {
   // cos^0.1 falls with a vertical tangent there: no rounding of the angle is harmless.
   EXPECT_EQ(chosen("phong_rdf", 0.1), Precision::kFloat64);
 }

@@ -55,7 +55,7 @@ TEST(Rounds, TakeNoMoreSamplesThanAllowed) {
   EXPECT_GT(*result.error, 1e-9);
 }
 
-TEST(Rounds, KnowNoErrorOfOneSampleAndExceedNoSamplesOfTheScene) {
+TEST(Rounds, NeverExceedTheSamplesOfTheScene) {
   RenderOptions options;
   options.target_error = 1e-9;
   options.max_samples = 1;

@@ -20,7 +20,7 @@ TEST(CanonicalScenes, AllReadAndWriteBackToTheSameScene) {
   EXPECT_GE(count, 14);
 }
 
-TEST(EffectScenes, HaveWhatTheirNamesSay) {
+TEST(EffectScenes, HaveTheEffectsOfTheirNames) {
   const std::pair<const char*, const char*> beyond[] = {
       {"area_light", "an area light, a ground plane"},
       {"rectangle_light", "an area light, a ground plane"},
@@ -139,7 +139,7 @@ TEST(SceneReader, ReadsNoEntitiesAndNothingFromOutside) {
       testing::HasSubstr("a DOCTYPE is not allowed"));
 }
 
-TEST(SceneReader, SurvivesBrokenXmlAndBinaryAndDeepNesting) {
+TEST(SceneReader, SurvivesBrokenOrDeeplyNestedXml) {
   for (const std::string& text :
        {std::string("<scene"), std::string("<scene>\n<a></scene>"), std::string(),
         std::string("\0\xff\xfe<>", 5), std::string("just text")})
@@ -177,7 +177,7 @@ TEST(SceneReader, ShowsNoControlCharactersOfAHostileFile) {
               testing::Not(testing::HasSubstr("\x1b")));
 }
 
-TEST(SceneFormatDocument, IsWhatTheProgramPrints) {
+TEST(SceneFormatDocument, MatchesTheOutputOfTheProgram) {
   std::ifstream file(kRoot + "/docs/scene_format.md");
   std::stringstream text;
   text << file.rdbuf();

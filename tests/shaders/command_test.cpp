@@ -60,7 +60,7 @@ TEST_F(ExportCommand, WarnsOutsideThePapersExponents) {
   EXPECT_EQ(exported("64").output_tail, "");
 }
 
-TEST_F(ExportCommand, IsWhatTheReferenceRendersOfPovrayInclude) {
+TEST_F(ExportCommand, MatchesThePovRayReference) {
   const Scene scene =
       sphere_scene({"modified_phong", "gauss", "exact", 64}, {directional_at(45)}, 16);
   ASSERT_EQ(

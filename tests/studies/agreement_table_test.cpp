@@ -125,7 +125,7 @@ TEST(AgreementPage, HasTheProgramsSectionsWithTheirColumns) {
     EXPECT_THAT(page, HasSubstr(fmt::format("\n| {} | up to 1024 |", variant.title)));
 }
 
-TEST(AgreementCommand, RefusesWhatItCannotDoBeforeItWorks) {
+TEST(AgreementCommand, RefusesWrongOptionsUpFront) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "file", "");
   const auto expect = [&](std::vector<std::string> more, ExitCode code, const char* message) {

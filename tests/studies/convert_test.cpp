@@ -39,7 +39,7 @@ const Row& row(const std::vector<Row>& rows, std::string_view name) {
   return *found;
 }
 
-TEST(Curve, ReflectsTheEnergyThatTheModelDoesAtNormalIncidence) {
+TEST(Curve, ReflectsTheModelsEnergyAtNormalIncidence) {
   for (const ShadingModel& one : catalogue())
     for (const double n : {1e-3, 0.5, 16.0, 1e3, 1e8}) {
       const Highlight highlight{*one.id, *find_lobe("cosine"), Normalisation::kExact, n};

@@ -58,7 +58,7 @@ TEST(PictureLevel, ChecksEachLobeInEachPrecision) {
   }
 }
 
-TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
+TEST(PictureLevel, NamesTheTruthOfARandomPicture) {
   Options options;
   options.effort = Effort::kQuick;
   Scene soft = canonical_scene("effects/area_light");

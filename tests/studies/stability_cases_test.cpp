@@ -38,7 +38,7 @@ std::size_t expect_within(Rows (*rows_of)(LobeId)) {
   return rows;
 }
 
-TEST(HardCases, CoverEveryListedLobeAndTwoThatAreNotListed) {
+TEST(HardCases, CoverEveryListedLobePlusTwoOthers) {
   const auto lobes = lobes_under_test();
   ASSERT_EQ(lobes.size(), all_lobes().size() + 2);
   for (const LobeId& lobe : all_lobes())
@@ -49,7 +49,7 @@ TEST(HardCases, CoefficientsAreRightWhereThePlainFormulaOverflows) {
   EXPECT_EQ(expect_within(coefficient_rows), some_lobes().size() * models().size() * 11);
 }
 
-TEST(HardCases, VectorsOfAnyLengthAndPlaceAreShadedWithinTheBound) {
+TEST(HardCases, ShadeVectorsOfAnyLengthWithinTheBound) {
   EXPECT_GT(expect_within(vector_rows), some_lobes().size() * models().size() * 9 * 30);
 }
 
@@ -120,7 +120,7 @@ TEST(HardCases, SphereScenesShowTheHighlightWhereTheyAreMadeFor) {
 
 class RandomVectorsOf : public testing::TestWithParam<double> {};
 
-TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecisionAndOfTheOneChosen) {
+TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecision) {
   const Rows rows = precision_rows(lobes_under_test(), GetParam());
   EXPECT_GE(expect_within(rows), lobes_under_test().size() * models().size() * 4);
   double chosen = 0;

@@ -86,7 +86,7 @@ TEST(EveryLobeInFloat32, IsWithinItsTightBoundEverywhere) {
   }
 }
 
-TEST(EveryLobeInFloat32, MeetsNoNumberThatIsDenormalOnTheWayToAResultTooSmall) {
+TEST(EveryLobeInFloat32, MeetsNoDenormalIntermediate) {
   // A processor notes it when a result is below the smallest normal number.
   const auto underflows = [](auto work) {
     std::feclearexcept(FE_ALL_EXCEPT);

@@ -50,7 +50,7 @@ TEST(ARow, IsNoPassWhereNothingIsBounded) {
   EXPECT_EQ(outcome(unbounded), kOutside);
 }
 
-TEST(AReport, CountsWhatIsNotComparedAndPassesItNowhere) {
+TEST(AReport, CountsUncomparedRowsAsNoPass) {
   records::VerifyStability report;
   report.rows = {row("a", "cosine", 1, 1.5, 1), row("a", "cs16", 1, 1.25, 1)};
   report.rows[1].bound.of_peak = kInfinity;

@@ -126,7 +126,7 @@ TEST(SlopeFit, HasTheTextbooksStandardErrorOfThreePoints) {
   EXPECT_NEAR(slope.standard_error, std::sqrt(0.06 / 1 / 2), 1e-12);
 }
 
-TEST(SlopeFit, KnowsWhatItCannotTell) {
+TEST(SlopeFit, HasNoErrorFromTwoPoints) {
   EXPECT_TRUE(std::isnan(fit_slope({1}, {1}).value));
   EXPECT_NEAR(fit_slope({1, 4}, {1, 0.5}).value, -0.5, 1e-12);
   EXPECT_TRUE(std::isnan(fit_slope({1, 4}, {1, 0.5}).standard_error));

@@ -102,7 +102,7 @@ TEST_F(AbsentEngine, IsAnErrorUpFrontIfRequired) {
   EXPECT_EQ(run_with_path().exit_code, 0);
 }
 
-TEST_F(AbsentEngine, EndsTheFarmInOneLineAndChangesNothingIfItIsBroken) {
+TEST_F(AbsentEngine, EndsTheFarmInOneLineIfBroken) {
   install(fake_povray());
   ASSERT_EQ(run_with_path().exit_code, 0);
   const auto before = everything_in(out()), cached = everything_in(cache());

@@ -83,7 +83,7 @@ TEST_F(SlurmCluster, SaysItselfThatNoNodeIsLeft) {
   EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("not available"));
 }
 
-TEST_F(SlurmCluster, GivesTwiceTheTimeToWhatWasKilledForIt) {
+TEST_F(SlurmCluster, GivesKilledJobsTwiceTheTime) {
   ToyWork toy(directory.path(), 6, 0.1);
   toy.add({"slow", 0, 2, "toy"});
   options.chunks.target_seconds = 1;

@@ -42,7 +42,7 @@ class Doctor : public FakeSlurm {
   DoctorOptions checked;
 };
 
-TEST_F(Doctor, FindsNothingWrongWhereNothingIsAndLeavesNothingBehind) {
+TEST_F(Doctor, FindsNothingWrongWithASoundCluster) {
   const auto checks = doctor(checked);
   EXPECT_EQ(worst_of(checks), Verdict::kOk) << doctor_text(checks);
   EXPECT_EQ(checks.size(), 12u) << doctor_text(checks);
@@ -75,7 +75,7 @@ TEST_F(Doctor, SeesLimitsThatHurt) {
   EXPECT_EQ(only_complaint().name, "SlurmdTimeout");
 }
 
-TEST_F(Doctor, SeesAPartitionThatIsNotThereOrHasNoNodeOfUse) {
+TEST_F(Doctor, SeesAPartitionWithoutUsableNodes) {
   checked.slurm.partition = "none";
   EXPECT_THAT(only_complaint().found, HasSubstr("'none'"));
   checked.slurm.partition = "";

@@ -82,7 +82,7 @@ TEST_F(HostileRun, StartsNoProgramOfItsGridWithoutLeave) {
   EXPECT_TRUE(is_untouched());
 }
 
-TEST_F(HostileRun, TrustsAGridOfTheUserNoMoreThanTheRecordThatNamesIt) {
+TEST_F(HostileRun, TrustsAGridNoMoreThanItsRecord) {
   grid("16", "<engine name=\"mine\" command=\"evil {scene} {out}\"/>");
   make_directories(here("trusted"));
   fs::rename(here("grid.xml"), here("trusted/grid.xml"));
