@@ -42,9 +42,8 @@ ShaderApi api_of(const CheckShaderArguments& options, ShaderText language) {
   if (options.on.empty()) return usual;
   const auto chosen_api = ShaderApi(chosen_place(options.on, "--on", kOnNames));
   if (language != ShaderText::kGlsl && chosen_api != usual)
-    throw Error(ExitCode::kUsage, fmt::format("--on {}: {} runs on {} alone", options.on,
-                                              kShaderTextNames[std::size_t(language)],
-                                              kShaderApiNames[std::size_t(usual)]));
+    throw Error(ExitCode::kUsage, "--on {}: {} runs on {} alone", options.on,
+                kShaderTextNames[std::size_t(language)], kShaderApiNames[std::size_t(usual)]);
   return chosen_api;
 }
 

@@ -268,8 +268,8 @@ HeldDirectory held_folder(const fs::path& folder, const std::vector<NewReference
   std::error_code unknown;
   const fs::path real = fs::read_symlink(fmt::format("/proc/self/fd/{}", root.fd()), unknown);
   if (root && !unknown && real != folder)
-    throw Error(ExitCode::kInput, fmt::format("{}: was moved while it was compared; compare again",
-                                              printable_path(root.path().string())));
+    throw Error(ExitCode::kInput, "{}: was moved while it was compared; compare again",
+                printable_path(root.path().string()));
   return root;
 }
 
@@ -321,8 +321,7 @@ bool ask(const std::vector<NewReference>& list) {
 
 void require_person() {
   const auto refuse = [](const std::string& why) {
-    throw Error(ExitCode::kUsage,
-                fmt::format("--accept: {}; somebody has to look at what changes", why));
+    throw Error(ExitCode::kUsage, "--accept: {}; somebody has to look at what changes", why);
   };
   for (const char* name : kOfCi)
     if (const char* value = std::getenv(name);

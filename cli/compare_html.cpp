@@ -304,8 +304,8 @@ void require_place(const HtmlReport& html) {
     for (const fs::path& file : {index, html.path / gallery::kSiteList})
       if (file_type_at(file, ExitCode::kOutput) != fs::file_type::not_found)
         throw Error(ExitCode::kOutput,
-                    fmt::format("{}: is there already, and not of a report; choose another folder",
-                                printable_path(file.string())));
+                    "{}: is there already, and not of a report; choose another folder",
+                    printable_path(file.string()));
   require_writable(index);
 }
 

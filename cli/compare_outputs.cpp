@@ -47,9 +47,9 @@ void require_outside(std::string_view option, const fs::path& directory, const C
   for (const fs::path& folder : folders)
     if (!folder.empty() && is_below(real, real_path(folder)))
       throw Error(ExitCode::kUsage,
-                  fmt::format("{} {}: lies in {}, which is read by this command; choose "
-                              "a folder outside it",
-                              option, directory.string(), folder.string()));
+                  "{} {}: lies in {}, which is read by this command; choose "
+                  "a folder outside it",
+                  option, directory.string(), folder.string());
 }
 
 }  // namespace

@@ -37,8 +37,7 @@ void OutputFiles::writes(const fs::path& file) {
   const auto id = file_id(file);
   if ((id && read_.contains(*id)) ||
       !written_.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{}: is read or written by this command already", file.string()));
+    throw Error(ExitCode::kUsage, "{}: is read or written by this command already", file.string());
 }
 
 void OutputFiles::writes_report(const std::string& path) {

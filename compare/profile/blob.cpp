@@ -148,16 +148,17 @@ void require_in_picture(const BlobOptions& options, const Image& image) {
   const auto size = [&] { return fmt::format("{} x {}", image.width(), image.height()); };
   if (const auto& at = options.search.at;
       at && !(at->x >= 0 && at->y >= 0 && at->x <= image.width() && at->y <= image.height()))
-    throw Error(ExitCode::kInput, fmt::format("the place ({:g}, {:g}) is outside of the picture, "
-                                              "which has {} pixels",
-                                              at->x, at->y, size()));
+    throw Error(ExitCode::kInput,
+                "the place ({:g}, {:g}) is outside of the picture, "
+                "which has {} pixels",
+                at->x, at->y, size());
   if (const auto& r = options.region;
       r && !(r->x >= 0 && r->y >= 0 && r->width >= 1 && r->height >= 1 && r->x < image.width() &&
              r->y < image.height() && r->width <= image.width() - r->x &&
              r->height <= image.height() - r->y))
     throw Error(ExitCode::kInput,
-                fmt::format("the region {},{},{},{} is not inside the picture, which has {} pixels",
-                            r->x, r->y, r->width, r->height, size()));
+                "the region {},{},{},{} is not inside the picture, which has {} pixels", r->x, r->y,
+                r->width, r->height, size());
 }
 
 }  // namespace
@@ -171,9 +172,8 @@ BlobProfiles measure_blobs(const NamedImages& images, const BlobOptions& options
   pictures.reserve(images.size());
   for (const auto& [name, image] : images) {
     if (image->width() != first.width() || image->height() != first.height())
-      throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, {} has {} x {}",
-                                                images.front().first, first.width(), first.height(),
-                                                name, image->width(), image->height()));
+      throw Error(ExitCode::kInput, "{} has {} x {} pixels, {} has {} x {}", images.front().first,
+                  first.width(), first.height(), name, image->width(), image->height());
     const std::size_t k = pictures.size();
     const PictureNoise* noise = k < options.noise.size() ? options.noise[k] : nullptr;
     pictures.push_back(measure_picture(*image, options, noise));

@@ -265,7 +265,7 @@ const CompareOption& option_named(const std::string& given) {
 }
 
 [[noreturn]] void refuse_value(const CompareOption& option, const std::string& why) {
-  throw Error(ExitCode::kUsage, fmt::format("--{}: {}", option.name, why));
+  throw Error(ExitCode::kUsage, "--{}: {}", option.name, why);
 }
 
 void check_value(const CompareOption& option, const std::string& text) {

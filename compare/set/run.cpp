@@ -94,9 +94,8 @@ void prepare(PicturePair& pictures, const PairReport& pair, const std::string& n
   job.noise.read(name_of_noise, pair, pictures, options);
   const Image &a = pictures.a.image, &b = pictures.b.image;
   if (!options.surfaces.empty() && options.surfaces.size() != a.pixel_count())
-    throw Error(ExitCode::kInput,
-                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
-                            a.height(), job.scene, options.surfaces.size()));
+    throw Error(ExitCode::kInput, "{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
+                a.height(), job.scene, options.surfaces.size());
   job.parts.apply(b.width(), b.height(), options);
   take_part(pictures, pair.a, pair.b, options);
 }
@@ -251,9 +250,9 @@ PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair
 void require_pairs(const SetReport& report) {
   if (report.pairs.empty())
     throw Error(ExitCode::kInput,
-                fmt::format("no pair to compare: {} references have no picture, {} pictures no "
-                            "reference, and {} files are no pictures or do not fit the pattern",
-                            report.missing.size(), report.extra.size(), report.passed_over));
+                "no pair to compare: {} references have no picture, {} pictures no "
+                "reference, and {} files are no pictures or do not fit the pattern",
+                report.missing.size(), report.extra.size(), report.passed_over);
 }
 
 SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
