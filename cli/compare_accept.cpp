@@ -225,7 +225,7 @@ std::vector<NewReference> new_references(const CompareArguments& options, const 
       else
         look_at(one, [&] { look_at_pair(*problem.pair, job, one); });
     }
-  if (has_folders_by_name(job, pairing))
+  if (pairing.is_by_name)
     for (const PictureRow& row : pairing.rows) {
       if (!pairing.references_of(row).empty()) continue;
       const std::string& folder = job.pictures.given[kReferenceSet];

@@ -216,7 +216,7 @@ class ReportWriter {
     const Comparison& comparison = *pair.comparison;
     const CompareJob job = job_of(job_, pair.name);
     ComparisonOptions options = job.comparison;
-    const PicturePair read = read_compared(pair, job, pairing_, options);
+    const PicturePair read = read_compared(pair, job, options);
     const double stops = comparison.viewing.exposure_stops;
     if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
     const auto [reading_a, reading_b] = reading_of(pair);

@@ -214,7 +214,7 @@ SetReport compare_and_show(const CompareJob& job, const DifferencePicture& wante
     if (own_largest == largest.end() || !(own_largest->second >= 0)) return;
     const CompareJob own = job_of(job, pair.name);
     ComparisonOptions unused = own.comparison;
-    PicturePair pictures = read_compared(pair, own, pairing, unused);
+    PicturePair pictures = read_compared(pair, own, unused);
     if (allows_equal_nonfinite(own.comparison, pictures.b.source))
       clear_equal_nonfinite(pictures.a.image, pictures.b.image);
     write(pair, pictures.a.image, pictures.b.image, of_set);

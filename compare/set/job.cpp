@@ -148,7 +148,7 @@ void check_companions(const CompareJob& job, const Pairing& pairing) {
                 "name, in which it has the same name",
                 what);
   };
-  const bool by_name = has_folders_by_name(job, pairing);
+  const bool by_name = pairing.is_by_name;
   if (!by_name && !is_one_pair(pairing)) {
     if (!job.c.empty()) fail("--reference-floor");
     if (!job.noise.files("").empty()) fail("a picture of noise");

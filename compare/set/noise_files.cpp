@@ -111,8 +111,9 @@ std::optional<PictureNoise> NoiseFiles::read_side(const Side& side, const std::s
   }
 }
 
-void NoiseFiles::read(const std::string& name, const PairReport& files, PicturePair& pair,
+void NoiseFiles::read(const PairReport& files, PicturePair& pair,
                       ComparisonOptions& options) const {
+  const std::string& name = files.name_in_folders;
   if (!options.noise) return;
   options.noise->a = read_side(a_, "a", name, files.a, pair.a);
   options.noise->b = read_side(b_, "b", name, files.b, pair.b);

@@ -110,6 +110,7 @@ std::map<std::string, FolderWalk> walk_all(const PairingChoice& choice, Pairing&
 
 Pairing pair_folders(const PairingChoice& choice) {
   Pairing pairing{titles_of(choice.given), {}, {}, 0, {}};
+  pairing.is_by_name = true;
   const auto walks = walk_all(choice, pairing);
   Rows rows(choice.given.size());
   for (std::size_t set = 0; set < choice.given.size(); ++set)
