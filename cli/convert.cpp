@@ -21,7 +21,7 @@ struct ConvertArguments {
 
 conversion::ShadingModel shading_model(const std::string& name, std::string_view option) {
   const auto& names = conversion::shading_model_names();
-  return chosen(name, option, names, join(names), conversion::find_shading_model);
+  return chosen(name, option, names, conversion::find_shading_model);
 }
 
 conversion::Request request_of(const ConvertArguments& options) {

@@ -59,7 +59,7 @@ void add_reading_options(CLI::App& command) {
 
 std::size_t chosen_place(const std::string& value, std::string_view option,
                          std::span<const std::string_view> names) {
-  return chosen(value, option, names, join(names), [&](const std::string& name) {
+  return chosen(value, option, names, [&](const std::string& name) {
     const auto place = std::size_t(std::ranges::find(names, name) - names.begin());
     return place < names.size() ? std::optional(place) : std::nullopt;
   });
@@ -148,12 +148,11 @@ void SceneOverrides::apply(Scene& scene) const {
   std::vector<Highlight*> highlights{&unused};
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const highlight : highlights) {
-    if (model_)
-      highlight->model = chosen(*model_, "--model", model_names(), join(model_names()), find_model);
+    if (model_) highlight->model = chosen(*model_, "--model", model_names(), find_model);
     if (lobe) highlight->lobe = *lobe;
     if (normalisation_)
-      highlight->normalisation = chosen(*normalisation_, "--normalisation", normalisation_names(),
-                                        join(normalisation_names()), find_normalisation);
+      highlight->normalisation =
+          chosen(*normalisation_, "--normalisation", normalisation_names(), find_normalisation);
     replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight->exponent);
     if (highlight != &unused) require_lobe(*highlight);
   }
