@@ -25,7 +25,7 @@ struct Change {
   }
 };
 
-/// What became of a changed copy by its comparison.
+/// The result of comparing a changed copy with the original.
 Change change_of(std::string name, Expected expected, const Comparison& comparison);
 
 /// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without its

@@ -78,7 +78,7 @@ IccProfile::IccProfile(const std::filesystem::path& path, std::string_view bytes
       TYPE_RGB_FLT, INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE | cmsFLAGS_NOCACHE));
   if (!transform_->handle) damaged();
 
-  // What it is, by what it does with three greys and the pure colours.
+  // The kind of profile, by its result for three greys and the pure colours.
   constexpr float kGreys[] = {0.1f, 0.5f, 0.9f};
   Image probe(6, 1);
   for (int i = 0; i < 3; ++i) {

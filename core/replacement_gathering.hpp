@@ -27,11 +27,11 @@ struct GatheredReplacement {
 GatheredReplacement gather(const HeldDirectory& root, const HeldDirectory& next,
                            std::span<const Replacement> files);
 
-/// What an interrupted process left in the stage "now".
+/// The files of an interrupted process in the stage "now".
 struct InterruptedReplacement {
   std::vector<SeenFiles> seen;  ///< by entry
   bool is_sound = true;         ///< all files are what the journal says, here and in their places
-  /// Of the files here that are not: "PATH: is not what was accepted".
+  /// One for each file here that is wrong: "PATH: is not what was accepted".
   std::vector<std::string> problems = {};
 };
 

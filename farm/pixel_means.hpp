@@ -1,4 +1,4 @@
-// What a scene's formula is over the area of a pixel, and not at its centre alone.
+// The mean of a scene's formula over the area of a pixel, in place of its value at the centre.
 #pragma once
 
 #include "compare/profile/profile.hpp"

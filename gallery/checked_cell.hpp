@@ -85,7 +85,7 @@ std::vector<std::string> files_of(const CheckedCell& cell);
 /// The verdict by a comparison's figures and limits, as a record names it. Without a limit it never passes.
 std::string judge(const records::Comparison& comparison, const Metrics& metrics);
 
-/// Of a verdict, and of a state that a farm's record may have: higher is worse.
+/// The rank of a verdict, or of a state in a farm's record: higher is worse.
 int rank(const std::string& verdict);
 std::size_t rank(CellStatus status);
 

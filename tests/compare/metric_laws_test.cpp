@@ -186,7 +186,7 @@ TEST(MetricLaws, TheBestValueAndBothEndsOfARangeAreLimits) {
     }
 }
 
-TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
+TEST(Limits, AreCorrectedIfBeyondTheRange) {
   const auto problem = [](const char* id, double limit) {
     return limit_problem(*find_metric_output(id), limit);
   };
@@ -206,7 +206,7 @@ TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
 }
 
 TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
-  // Of each metric at least one output sees the difference of each pair; none is better or NaN.
+  // At least one output of each metric sees the difference of each pair; none is better or NaN.
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
       const std::vector<double> values = measure(*metric, a, b);
@@ -221,7 +221,7 @@ TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
     }
 }
 
-TEST(MetricLaws, AMetricThatIsCalledSymmetricDoesNotChangeWhenThePicturesAreExchanged) {
+TEST(MetricLaws, SymmetricMetricsIgnoreTheOrderOfPictures) {
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
       const std::vector<double> forth = measure(*metric, a, b), back = measure(*metric, b, a);
@@ -241,7 +241,7 @@ void expect_ever_worse(const Image& reference, const std::vector<Image>& picture
       const std::vector<double> values = measure(*metric, pictures[k], reference);
       for (std::size_t i = 0; i < values.size(); ++i) {
         const MetricOutput& output = metric->outputs[i];
-        // What cancels in a signed mean or in a centroid is rounding there.
+        // Values that cancel in a signed mean or in a centroid leave only rounding.
         const bool cancels = output.better == Better::kNearZero || output.id == "shift.highlight";
         const double rounding = cancels ? 1e-6 : 0;
         if (is_judged(output)) {

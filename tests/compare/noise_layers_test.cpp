@@ -151,7 +151,7 @@ TEST_F(NoiseLayers, HaveTheTrueSizeFromMitsuba) {
       beyond += std::abs(apart) > 1.96 * error;
     }
   }
-  // Of 6912 values 346 are expected, with a spread of 18.
+  // 346 of 6912 values are expected, with a spread of 18.
   EXPECT_NEAR(beyond / double(all), 0.05, 0.011);
 }
 
@@ -229,7 +229,7 @@ TEST_F(NoiseLayers, TakeVariancePassAndSamplesFromOldCycles) {
     ASSERT_NEAR(noise.standard_error.values()[i], unbiased * standard_error(moments, i), 1e-5);
 }
 
-TEST_F(NoiseLayers, CalledStandardErrorAreWhatTheySay) {
+TEST_F(NoiseLayers, ReadTheLayerStandardError) {
   std::vector<ExrChannel> channels;
   add(channels, "", "RGB", [](std::size_t) { return 1; });
   add(channels, "StandardError", "RGB", [](std::size_t) { return 0.25; });

@@ -1,4 +1,4 @@
-// What the program gives the pages' scripts. Written by `lobelia records --typescript > gallery/web/src/records.ts`;
+// The program's data for the pages' scripts. Written by `lobelia records --typescript > gallery/web/src/records.ts`;
 // do not edit: records/pages.cpp has the tables.
 
 /** An axis of the grid. */
