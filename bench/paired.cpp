@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "bench/inputs.hpp"
+#include "bench/paired_times.hpp"
 #include "core/files.hpp"
-#include "core/paired_times.hpp"
 #include "core/timing.hpp"
 
 namespace lobelia::bench {
