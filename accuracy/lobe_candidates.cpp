@@ -24,7 +24,7 @@ struct Weights {
 constexpr Weights kWeights[] = {
     {1, 6, 28, 4}, {1, 6, 28, 3}, {1.5, 10, 70, 0}, {170, 170, 2700, 10000}};
 static_assert(std::size(kWeights) == kPrecisionCount);
-/// Of a formula, which every precision evaluates node by node and one value at a time: 27 ns for c^n, 53 ns for
+/// Costs of a formula, evaluated node by node and one value at a time: 27 ns for c^n, 53 ns for
 /// max(0, 1 - n s / 16)^16, 70 ns for exp(-n x^2 / 2), with 0.015 ns a multiplication.
 constexpr double kOfANode = 250, kOfItsTranscendentals = 1000;
 

@@ -142,7 +142,7 @@ void look_at(NewReference& one, Look look) try {
   look();
 } catch (const Error& error) {
   if (error.code() != ExitCode::kInput) throw;
-  // What went wrong with the reader does not name the picture.
+  // Errors of the reader itself do not name the picture.
   const std::string why = error.what(), from = one.from.string();
   one.refusal = printable_path(why.starts_with(from) ? why : from + ": " + why);
 }

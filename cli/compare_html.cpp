@@ -278,7 +278,7 @@ class ReportWriter {
   std::map<std::string, const Judged*> by_id_;
 };
 
-/// What each pair may take of a file that is to be sent.
+/// The share of its usual size that each pair may take in a single file, so that the file can be sent.
 double share_for_one_file(const SetReport& report) {
   constexpr double kMostBytes = 64 << 20, kOfPair = 512 << 10, kOfPixels = 512 * 512;
   double bytes = 0;

@@ -60,7 +60,7 @@ bool lacks_exposures(const DifferenceMap& map, const Viewing& viewing, const fs:
 ColourScale colour_scale(const DifferenceMap& map, const Viewing& viewing, double scale) {
   const auto& range = viewing.hdr_exposures;
   if (map.scale != MapScale::kExposures || !range) return scale;
-  // Of equal ends every pixel has the first colour.
+  // If both ends are equal, every pixel has the first colour.
   return {range->start_stops, std::max(range->stop_stops, range->start_stops + 1e-3)};
 }
 

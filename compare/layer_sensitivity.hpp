@@ -1,4 +1,4 @@
-// What the limits find in changed copies of a layer of a file, by its type.
+// Differences that the limits find in changed copies of a file's layer, by its type.
 #pragma once
 
 #include "compare/layers.hpp"

@@ -37,7 +37,7 @@ Comparison compare_values(Image& a, Image& b, const PictureSource& source_a,
 /// Which identifier is most often where the reference has another one.
 class ExchangedIdentifiers {
  public:
-  /// Of a pixel.
+  /// Adds the identifiers of one pixel.
   void add(std::uint64_t in_a, std::uint64_t in_b);
   /// The most frequent pair; nothing if there is none.
   struct Most {

@@ -107,7 +107,7 @@ std::optional<LayerComparison> find_lost_alpha(const fs::path& a, const fs::path
   return layer;
 }
 
-/// Of an alpha that was judged with its colours, or is not judged, nothing more is said.
+/// Removes alphas from the list of unpaired layers if they were judged with their colours, or are not judged.
 void take_out_alpha(const PictureSource& layer_a, const PictureSource& layer_b,
                     CommonLayers& common) {
   if (!layer_a.alpha.empty()) std::erase(common.only_a, layer_a.alpha);

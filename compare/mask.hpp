@@ -18,7 +18,7 @@ struct MaskShape {
   using Polygon = std::vector<std::array<double, 2>>;  ///< corners in pixels; closed by itself
 
   std::string text;  ///< as it was given
-  /// Of a picture the pixels that are not 0 in any channel are inside; of a polygon those whose centre is, by the
+  /// Inside are the pixels of a picture that are not 0 in every channel, or those with their centre in a polygon, by the
   /// even-odd rule. The centre of the first pixel is (0.5, 0.5).
   std::variant<Rectangle, Polygon, Image> form;
 };
@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> picture_files(std::span<const MaskShape> shap
 /// By pixel, 1 where it is inside any of the shapes. Throws Error(kInput) if a picture has another size.
 PixelFlags pixels_inside(std::span<const MaskShape> shapes, int width, int height);
 
-/// What a window holds. Throws Error(kInput) unless it lies within the picture.
+/// The part of the image in the window. Throws Error(kInput) unless the window lies within the picture.
 Image cut(Image image, const PixelWindow& window);
 /// The same of a value for each pixel of a picture that is `width` wide; nothing of nothing.
 PixelFlags cut(std::span<const std::uint8_t> pixels, int width, const PixelWindow& window);

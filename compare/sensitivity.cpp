@@ -196,7 +196,7 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
        std::span(highlights).first(std::min(highlights.size(), kMostChanged))) {
     const auto add_highlight = [&](std::string_view how, double kept, int columns) {
       const Image changed = with_highlight(reference, one, kept, columns);
-      // What the picture's own roughness hides need not be found.
+      // A change that the picture's own roughness hides need not be found.
       const bool is_clear = judge_highlight(changed, reference, one).badness() > 1;
       add(fmt::format("{} {}", name_of_highlight(one.x, one.y), how),
           is_clear ? Expected::kFound : Expected::kEither, changed);

@@ -25,7 +25,7 @@ struct Change {
   }
 };
 
-/// What became of a changed copy by its comparison.
+/// The result of comparing a changed copy with the original.
 Change change_of(std::string name, Expected expected, const Comparison& comparison);
 
 /// The value that a half float would hold, of those that it can.

@@ -189,7 +189,7 @@ LockSharing lock_sharing_of(std::string_view mountinfo, std::string_view device,
   for (const std::string_view wanted : {device, std::string_view()}) {
     for (const std::string& line : lines) {
       if (!parse(line, wanted, mount) || (wanted.empty() && !is_below(path, mount.place))) continue;
-      // Of several mounts at one place the last hides the others.
+      // The last of several mounts at one place hides the others.
       const bool is_above = is_below(path, mount.place), best_is = is_below(path, best.place);
       if (best.type.empty() || (is_above && (!best_is || mount.place.size() >= best.place.size())))
         best = mount;

@@ -35,7 +35,7 @@ struct DisplayViewChoice {
 };
 inline constexpr char kOwnConfig[] = "builtin";
 
-/// What a display shows of a scene by an OpenColorIO configuration.
+/// A display's view of a scene by an OpenColorIO configuration.
 class DisplayView {
  public:
   /// Null for Lobelia's own sRGB display, which needs no OpenColorIO. Throws Error(kInput) for a configuration that

@@ -66,7 +66,7 @@ std::filesystem::path real_path(const std::filesystem::path& path,
 /// All regular files below `directory`, in no order. Throws Error(kInput) if a part of it cannot be listed.
 std::vector<std::filesystem::path> regular_files_below(const std::filesystem::path& directory);
 
-/// What a write replaces where its path is a symbolic link.
+/// The file that a write replaces if its path is a symbolic link.
 enum class AtLink {
   kFollow,  ///< the file that the link leads to: for paths that a user chose
   kReplace  ///< the link itself: for names of ours

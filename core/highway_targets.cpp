@@ -1,5 +1,5 @@
-// What Highway's headers need of its library: the choice of a kernel's variant for this processor. The library itself
-// measures the processor's clock while it is loaded, which takes every process 5 ms (docs/decisions/0009).
+// The part of its library that Highway's headers need: the choice of a kernel's variant for this processor. The library
+// itself measures the processor's clock while it is loaded, which takes every process 5 ms (docs/decisions/0009).
 #include <hwy/highway.h>
 
 #include <atomic>

@@ -54,7 +54,7 @@ class IccProfile {
         INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE | cmsFLAGS_NOCACHE));
     if (!handle_) damaged();
 
-    // What it is, by what it does with three greys and the pure colours.
+    // The kind of profile, by its result for three greys and the pure colours.
     constexpr float kGreys[] = {0.1f, 0.5f, 0.9f};
     Image probe(6, 1);
     for (int i = 0; i < 3; ++i) {

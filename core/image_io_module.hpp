@@ -9,7 +9,7 @@
 
 namespace lobelia {
 
-/// What a picture's header claims, before memory is allocated for it.
+/// The size that a picture's header claims, before memory is allocated for it.
 struct PictureClaim {
   std::uint64_t pixels = 0;     ///< of the data window and the display window together
   std::uint64_t raw_bytes = 0;  ///< of all channels, uncompressed

@@ -58,7 +58,7 @@ bool ends_with(const Key& key, const Key& end) {
   return key.size() >= end.size() && std::equal(end.rbegin(), end.rend(), key.rbegin());
 }
 
-/// What `wanted` may be called: itself, then other renderers' names for it. A view is its picture.
+/// All spellings of `wanted`: itself, then other renderers' names for it. A view is its picture.
 std::vector<Key> spellings(const Key& wanted, std::span<const Key> views) {
   std::vector<Key> result;
   if (std::ranges::count(views, wanted) > 0)

@@ -1,4 +1,4 @@
-// What the values of a layer are: light, a share of the pixel, a distance, a direction, or the number of an object.
+// The meaning of a layer's values: light, a share of the pixel, a distance, a direction, or the number of an object.
 #pragma once
 
 #include <cstdint>

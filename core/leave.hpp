@@ -28,8 +28,8 @@ class Leave {
   State state_ = State::kNone;
 };
 
-/// What is doubtful about the folders of $LOBELIA_ALLOW_COMMANDS_IN, in one sentence: which give no leave, because they are
-/// not there or not absolute, and into which every user may put files that get leave. Empty if nothing is.
+/// One sentence on doubtful folders of $LOBELIA_ALLOW_COMMANDS_IN: those that give no leave, because they are not there
+/// or not absolute, and those that give leave but where every user may put files. Empty if there are none.
 std::string doubts_of_trusted_folders();
 
 /// Throws Error(kUsage): "this would start 'sh mine.sh' by engine mine; if you trust ...". `wishes` says what would be done.

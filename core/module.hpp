@@ -19,7 +19,7 @@ class Module {
       : file_(file), title_(title), require_room_(require_room) {}
   const char* file() const { return file_; }
 
-  /// What has this name in the module or in a library that it brings. The first call loads the module. Throws
+  /// The symbol of this name in the module or in a library that it brings. The first call loads the module. Throws
   /// Error(kInternal) if there is no such module or name, Error(kInput) if the module or one of its libraries cannot be read,
   /// Error(kNoResources) if there is no room.
   void* find(const char* name);

@@ -12,16 +12,16 @@ namespace lobelia {
 /// mirrored for 2, 4, 5 and 7, and with rows and columns exchanged from 5 on.
 inline constexpr int kUpright = 1, kMostOrientation = 8;
 
-/// What the file states of page `page` (0 but in a TIFF): by the Exif of a JPEG, a PNG (chunk eXIf) or a WebP, the tag of
-/// a TIFF, the line of a Radiance file that names its axes, and the header of a DPX. kUpright for other formats, if nothing is
-/// stated, and for numbers without a meaning. `format` is OpenImageIO's name. XMP and texts do not count. OpenImageIO itself
-/// undoes the orientation of a TGA.
+/// The orientation that the file states for page `page` (0 but in a TIFF): by the Exif of a JPEG, a PNG (chunk eXIf) or a
+/// WebP, the tag of a TIFF, the line of a Radiance file that names its axes, and the header of a DPX. kUpright for other
+/// formats, if nothing is stated, and for numbers without a meaning. `format` is OpenImageIO's name. XMP and texts do not
+/// count. OpenImageIO itself undoes the orientation of a TGA.
 int stated_orientation(std::string_view file, std::string_view format, std::size_t page = 0);
 
 /// Whether the lines of a DPX are columns of what it shows. OpenImageIO 2.4 exchanges width and height of such a file.
 bool is_dpx_in_columns(std::string_view file);
 
-/// What is left of the orientation of a TIFF's page after OpenImageIO has read it. It reads YCbCr and some JPEGs by
+/// The orientation of a TIFF's page that remains after OpenImageIO has read it. It reads YCbCr and some JPEGs by
 /// libtiff's RGBA interface, which mirrors rows and columns, but does not exchange them.
 int orientation_left_by_libtiff(std::string_view file, int orientation, std::size_t page);
 
@@ -29,7 +29,7 @@ int orientation_left_by_libtiff(std::string_view file, int orientation, std::siz
 /// orientation in its source.
 void turn_upright(Picture& picture, int orientation);
 
-/// What was done to the stored picture: "turned by 180 degrees". Empty for kUpright.
+/// The change that was made to the stored picture: "turned by 180 degrees". Empty for kUpright.
 std::string_view orientation_text(int orientation);
 
 }  // namespace lobelia

@@ -55,7 +55,7 @@ bool is_tiff_without_bits(std::string_view bytes);
 /// The data of a JPEG's segments before its pixels, by the text that they begin with, which is cut off.
 std::vector<std::string_view> jpeg_segments(std::string_view jpeg, std::string_view beginning);
 
-/// What the chunks of a PNG say about its colours (PNG, third edition, 11.3.2). Ignored are chunks with a wrong checksum
+/// The colours that a PNG's chunks state (PNG, third edition, 11.3.2). Ignored are chunks with a wrong checksum
 /// or length, a second chunk of a type, and chunks after the first pixels.
 struct PngColour {
   /// ITU-T H.273 code points

@@ -37,7 +37,7 @@ struct ReadingAnswer {
   bool has_overscan = false;  ///< the overscan's values follow the picture's
 };
 
-/// What the reader sends when the child that decodes has ended.
+/// The message that the reader sends when the child that decodes has ended.
 struct ReaderVerdict {
   int status = 0;         ///< as of wait(2)
   bool too_long = false;  ///< it was killed after seconds_to_wait()

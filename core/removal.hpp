@@ -52,7 +52,7 @@ class HeldDirectory {
   std::filesystem::path path_;
 };
 
-/// What may be removed under a name.
+/// The kind of entry that may be removed under a name.
 enum class Owned {
   kNo,
   kFile,       ///< anything but a directory; a link itself, not its target
@@ -64,7 +64,7 @@ enum class Owned {
 struct Ownership {
   /// Whether the root is ours, by a marker: a file that only we put there.
   std::function<bool(const HeldDirectory& root)> is_ours;
-  /// What is ours below the root, by its name: `relative` is plain names.
+  /// The kind of `relative`, a path of plain names below the root, by its name.
   std::function<Owned(const std::filesystem::path& relative)> owned;
 };
 

@@ -257,7 +257,7 @@ class ReplacedFolder {
     return done;
   }
 
-  /// What is in a place that is to be put back.
+  /// The state of a place that is to be restored.
   enum class Found : std::uint8_t { kNothing, kOld, kNew, kForeign };
 
   static Found found_in(const HeldDirectory& there, const Journal::Entry& entry, std::size_t i,

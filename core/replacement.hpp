@@ -41,7 +41,7 @@ struct Replacement {
   Sha256Digest bytes{};        ///< what it has to hold
   /// Relative to the folder, without "..". No link on the way is followed, and one in its place is itself replaced.
   std::filesystem::path to;
-  /// What `to` has to hold. Nothing: there must be no such file.
+  /// The content that `to` must have; empty if there must be no such file.
   std::optional<Sha256Digest> before;
 };
 

@@ -101,11 +101,11 @@ class Gathering {
   GatheredReplacement done_;
 };
 
-/// What an interrupted process left in the stage "now".
+/// The files of an interrupted process in the stage "now".
 struct InterruptedReplacement {
   std::vector<SeenFiles> seen;  ///< by entry
   bool is_sound = true;         ///< all files are what the journal says, here and in their places
-  /// Of the files here that are not: "PATH: is not what was accepted".
+  /// One for each file here that is wrong: "PATH: is not what was accepted".
   std::vector<std::string> problems = {};
 };
 

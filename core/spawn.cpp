@@ -35,7 +35,7 @@ constexpr int kSignals = 64;
 constexpr std::size_t kSignalSetBytes = kSignals / 8;  // the kernel's set; glibc's is longer
 constexpr int kNotStarted = 127;
 
-/// What the child needs, prepared by the parent, and what it reports.
+/// Data that the parent prepares for the child, and the child's report.
 struct Child {
   char* const* arguments;
   char* const* environment;

@@ -151,7 +151,7 @@ Picture read_layer(const PictureBytes& file, Imf::InputFile& input, const std::s
   return picture;
 }
 
-/// What `use` makes of the opened file. Throws Error(kInput) in place of OpenEXR's exceptions.
+/// The result of `use` for the opened file. Throws Error(kInput) in place of OpenEXR's exceptions.
 template <class Use>
 auto opened(const PictureBytes& file, const Use& use) {
   try {

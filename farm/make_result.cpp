@@ -69,7 +69,7 @@ NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
     return noise_of_standard_errors(
         read_trusted_image(picture.directory / error_file(picture.engine)), freedom, shared);
   };
-  // What errs together is not known, so each figure is measured six times as often: of many cells, by fewer pairs.
+  // It is not known which values err together, so each figure is measured six times: of many cells, by fewer pairs.
   return {.a = noise(ours, kErrorFreedom, false),
           .b = noise(theirs, kReplicates - 1, true),
           .bootstraps = 12};

@@ -122,7 +122,7 @@ class PixelMeans {
   double reach_ = 0;  ///< of the filter, pixels
 };
 
-/// What a scene's formula shows of one sphere under one light and in all.
+/// Pictures by a scene's formula of one sphere, under one light and under all.
 struct FormulaPictures {
   Image analytic;               ///< under the one light
   Image with_all;               ///< none if it is the only one
@@ -205,7 +205,7 @@ struct CleanPicture {
   }
 };
 
-/// What was left out of the highlight. Specks are listed that are at least as high as a highlight without a scene has to be.
+/// Adds the specks and clipped pixels that were left out. Specks need the least height of a highlight without a scene.
 void add_left_out(records::HighlightFigures& figures, const CleanPicture& picture,
                   const PictureFacts& facts, const HighlightMap& map, double end, double peak) {
   constexpr std::size_t kMostSpecks = 16;

@@ -1,8 +1,5 @@
-// Neighbouring cells in one script. Their pages differ in a few texts: each tag and each text is written once, and a page
-// is a list of their numbers. gallery/web/src/cell/packed_cell.ts reads it back.
+// Neighbouring cells in one script. gallery/web/src/cell/packed_cell.ts reads it back.
 #pragma once
-
-#include <map>
 
 #include "core/image.hpp"
 #include "gallery/packed_numbers.hpp"
@@ -17,20 +14,15 @@ struct NamedPicture {
 
 class CellChunk {
  public:
-  /// `main` is markup by Html.
-  void add(const std::string& id, std::string_view main, records::CellPage page,
+  /// `main` is the markup of the cell's <main>.
+  void add(const std::string& id, std::string main, records::CellPage page,
            std::vector<NamedPicture> pictures);
   records::CellChunk packed() const;
 
  private:
   records::CellTexts texts_;
-  std::map<std::string, std::uint32_t, std::less<>> numbers_;  ///< of the pieces
-  std::vector<std::uint32_t> order_;
   PackedNumbers curves_;
   std::vector<std::string> pixels_;
 };
-
-/// The tags and the texts between them.
-std::vector<std::string_view> pieces_of(std::string_view markup);
 
 }  // namespace lobelia::gallery

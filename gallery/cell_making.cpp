@@ -93,7 +93,7 @@ void write_engine(Html& html, const SiteFrame& site, const records::FarmEngine& 
   write_file_link(html, site, image->log, "the engine’s own output");
 }
 
-/// Of a report: where each picture comes from, and how to compare them again.
+/// For a report: where each picture comes from, and how to compare them again.
 void write_origins(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
   html.element("h2", {{"id", "making"}}, "Where the pictures come from");

@@ -140,7 +140,7 @@ void write_stories(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   }
 }
 
-/// What an artist would say of each highlight, and the limits that are broken.
+/// Each highlight's difference in an artist's words, and the limits that are broken.
 void write_findings(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   for (const CheckedComparison& comparison : cell.comparisons) {
     if (!comparison.sentence.empty())

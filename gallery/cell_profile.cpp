@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <span>
 
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
@@ -90,75 +89,38 @@ void write_curves(Html& html, const ShownFarm& farm, const records::Profile& pro
                "each angle. Lines that lie on each other show through by their dashes.");
 }
 
-struct FigureColumn {
-  const char* title;
-  std::string (*text)(double);
+/// The texts of a row of figures below their titles; an empty one is a dash. A column without any text is left out.
+struct Figures {
+  std::vector<std::string> heads, titles;
+  std::vector<std::vector<std::string>> rows;  ///< heads, then figures
 };
 
-template <int kDigits>
-std::string with_digits(double value) {
-  return number_text(value, kDigits);
-}
-std::string per_cent(double value) { return percent_text(value); }
-
-// Peak and energy: five digits tell apart engines that agree to four. n: the digits of a float32 exponent.
-constexpr FigureColumn kShapeColumns[] = {{"Peak", with_digits<5>},
-                                          {"At angle", degrees_text},
-                                          {"Half-width", degrees_text},
-                                          {"Energy", with_digits<5>},
-                                          {"n as a cosine lobe", with_digits<7>},
-                                          {"± of n", with_digits<2>}};
-constexpr FigureColumn kZoneColumns[] = {{"Pixels", count_text},
-                                         {"Largest difference", with_digits<3>},
-                                         {"Root mean square", with_digits<3>},
-                                         {"Largest, of the peak", per_cent}};
-
-struct FigureRow {
-  std::vector<std::string> heads;
-  std::vector<std::optional<double>> values;  ///< of each column
-};
-
-FigureRow row_of(const std::string& head, const records::HighlightShape& shape) {
-  FigureRow row{{head},
-                {shape.peak, shape.peak_angle_degrees, shape.half_width_degrees, shape.energy,
-                 std::nullopt, std::nullopt}};
-  if (shape.highlight) {
-    row.values[4] = shape.highlight->cosine_lobe.exponent;
-    row.values[5] = shape.highlight->cosine_lobe.standard_error;
-  }
-  return row;
+std::string figure(const std::optional<double>& value, int digits) {
+  return value ? number_text(*value, digits) : "";
 }
 
-FigureRow row_of(const std::string& pair, const std::string& zone, const records::ZoneError& e) {
-  return {{pair, zone}, {double(e.pixels), e.max_abs, e.rms, e.max_rel_peak}};
-}
-
-/// A missing value is a dash; a column without any value is left out.
-void write_figures(Html& html, const std::string& caption, const std::vector<std::string>& head,
-                   std::span<const FigureColumn> columns, const std::vector<FigureRow>& rows) {
-  const auto is_there = [&](std::size_t column) {
-    return std::ranges::any_of(rows,
-                               [&](const FigureRow& row) { return bool(row.values[column]); });
-  };
+void write_figures(Html& html, const std::string& caption, const Figures& figures) {
+  const std::size_t heads = figures.heads.size();
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < figures.titles.size(); ++i)
+    if (std::ranges::any_of(figures.rows, [&](const auto& row) { return !row[heads + i].empty(); }))
+      shown.push_back(i);
   const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "figures"}});
   html.element("caption", caption);
   {
     const Tag thead(html, "thead");
     const Tag line(html, "tr");
-    for (const std::string& title : head) html.element("th", {{"scope", "col"}}, title);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (is_there(i))
-        html.element("th", {{"scope", "col"}, {"class", "number"}}, columns[i].title);
+    for (const std::string& title : figures.heads) html.element("th", {{"scope", "col"}}, title);
+    for (const std::size_t i : shown)
+      html.element("th", {{"scope", "col"}, {"class", "number"}}, figures.titles[i]);
   }
   const Tag tbody(html, "tbody");
-  for (const FigureRow& row : rows) {
+  for (const auto& row : figures.rows) {
     const Tag line(html, "tr");
-    for (const std::string& words : row.heads) html.element("th", {{"scope", "row"}}, words);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (is_there(i))
-        html.element("td", {{"class", "number"}},
-                     row.values[i] ? columns[i].text(*row.values[i]) : "–");
+    for (std::size_t i = 0; i < heads; ++i) html.element("th", {{"scope", "row"}}, row[i]);
+    for (const std::size_t i : shown)
+      html.element("td", {{"class", "number"}}, row[heads + i].empty() ? "–" : row[heads + i]);
   }
 }
 
@@ -189,23 +151,35 @@ void write_profile(Html& html, const SiteFrame& site, const ShownFarm& farm,
   if (!site.is_packed || !has_curves) write_curves(html, farm, profile);
   const Tag tables(html, "div", {{"class", "side-by-side"}});
   if (!profile.images.empty()) {
-    std::vector<FigureRow> rows;
-    for (const auto& [name, shape] : profile.images)
-      rows.push_back(row_of(curve_title(farm, name), shape));
-    write_figures(html, "Each highlight in figures", {"Picture"}, kShapeColumns, rows);
+    Figures figures{{"Picture"},
+                    {"Peak", "At angle", "Half-width", "Energy", "n as a cosine lobe", "± of n"},
+                    {}};
+    // Peak and energy: five digits tell apart engines that agree to four. n: the digits of a float32 exponent.
+    for (const auto& [name, shape] : profile.images) {
+      const auto lobe = shape.highlight ? shape.highlight->cosine_lobe : records::CosineLobe();
+      figures.rows.push_back({curve_title(farm, name), figure(shape.peak, 5),
+                              degrees_text(shape.peak_angle_degrees),
+                              degrees_text(shape.half_width_degrees), figure(shape.energy, 5),
+                              figure(lobe.exponent, 7), figure(lobe.standard_error, 2)});
+    }
+    write_figures(html, "Each highlight in figures", figures);
   }
   if (!profile.differences.empty()) {
-    std::vector<FigureRow> rows;
+    Figures figures{{"Pictures", "Zone"},
+                    {"Pixels", "Largest difference", "Root mean square", "Largest, of the peak"},
+                    {}};
     const std::vector<records::ShownZone> titles = zones_of(profile);
     for (const auto& [pair, zones] : profile.differences) {
       const records::ZoneError errors[] = {zones.epicentre, zones.flank, zones.blooming};
       for (std::size_t i = 0; i < titles.size(); ++i)
-        rows.push_back(row_of(pair_title(farm, pair), titles[i].title, errors[i]));
+        figures.rows.push_back({pair_title(farm, pair), titles[i].title,
+                                count_text(double(errors[i].pixels)), figure(errors[i].max_abs, 3),
+                                figure(errors[i].rms, 3), percent_text(errors[i].max_rel_peak)});
     }
     std::string caption = "Differences by zone";
     for (const records::ShownZone& zone : titles)
       caption += "; " + zone.title + " " + degrees_text(zone.from) + " to " + degrees_text(zone.to);
-    write_figures(html, caption, {"Pictures", "Zone"}, kZoneColumns, rows);
+    write_figures(html, caption, figures);
   }
 }
 

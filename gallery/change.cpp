@@ -29,10 +29,7 @@ static_assert(std::size(kChangeInfos) == kChanges.size());
 /// Higher is worse.
 int severity(const CheckedComparison& comparison) {
   if (comparison.doubt || !comparison.problem.empty()) return 4;
-  const std::string& verdict = comparison.verdict;
-  if (verdict == "pass" || verdict == "same") return 0;
-  if (verdict == "undecided") return 1;
-  return verdict == "differs" || verdict == "different" ? 2 : 3;
+  return rank(comparison.verdict);
 }
 
 std::string plain_verdict(const CheckedComparison& comparison) {
@@ -43,11 +40,7 @@ std::string plain_verdict(const CheckedComparison& comparison) {
 
 /// Higher is worse. A cell without hashes counts as a pass: its verdict was one.
 std::size_t severity(CellStatus status) {
-  constexpr std::array kOrder = {
-      CellStatus::kUnsealed, CellStatus::kPass,    CellStatus::kUnchecked, CellStatus::kUndecided,
-      CellStatus::kDiffers,  CellStatus::kMissing, CellStatus::kFailed};
-  const auto place = std::size_t(std::ranges::find(kOrder, status) - kOrder.begin());
-  return std::max(place, std::size_t{1});
+  return rank(status == CellStatus::kUnsealed ? CellStatus::kPass : status);
 }
 
 Change change_of_ranks(std::size_t was, std::size_t now) {

@@ -85,6 +85,10 @@ std::vector<std::string> files_of(const CheckedCell& cell);
 /// The verdict by a comparison's figures and limits, as a record names it. Without a limit it never passes.
 std::string judge(const records::Comparison& comparison, const Metrics& metrics);
 
+/// The rank of a verdict, or of a state in a farm's record: higher is worse.
+int rank(const std::string& verdict);
+std::size_t rank(CellStatus status);
+
 /// Judges every comparison and then the cell. Where a record's verdict is not that of its figures, the worse one holds
 /// and `contradictions` gets a sentence. A flaw of a file outweighs every verdict.
 void judge_cell(CheckedCell& cell, const Metrics& metrics);

@@ -40,7 +40,7 @@ std::string checked_base_url(const std::string& url) {
   return url.back() == '/' ? url : url + '/';
 }
 
-/// What is made of the cell's float pictures, and its page.
+/// Publishes the files made from the cell's float pictures, and its page.
 CellSummary publish_page(const GalleryOptions& options, const SiteFrame& site,
                          const ShownFarm& farm, const History& history, const CellEntry& entry,
                          CheckedCell& cell, CellPictures pictures, Publisher& publisher) {

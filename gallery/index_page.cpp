@@ -74,7 +74,7 @@ void write_pair(Html& html, const ShownFarm& farm, const CellSummary* cell) {
                     percent_text(cell->nearest.difference)));
 }
 
-/// What came out, in one sentence.
+/// The result in one sentence.
 std::string result_sentence(const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const auto count = [&](CellStatus status) {
     return std::size_t(std::ranges::count(cells, status, &CellSummary::status));

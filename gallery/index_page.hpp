@@ -78,7 +78,7 @@ void write_folded(Html& html, const std::vector<T>& all, const Write& write) {
   write(rest.first(std::min(rest.size(), kMaxFolded)));
 }
 
-/// What a view found, in a sentence.
+/// A view's finding, in a sentence.
 struct Finding {
   PageLink page;
   std::string sentence;

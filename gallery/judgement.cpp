@@ -33,20 +33,6 @@ Standing standing_of(const records::Comparison& comparison, const records::Limit
   return low_holds || high_holds || (low < 0 && high > 0) ? Standing::kOpen : Standing::kBroken;
 }
 
-/// Higher is worse.
-int rank(const std::string& verdict) {
-  if (verdict == "pass" || verdict == "same") return 0;
-  return verdict == "undecided" ? 1 : verdict == "differs" || verdict == "different" ? 2 : 3;
-}
-
-/// Higher is worse. Only for the states that a farm's record may have.
-std::size_t rank(CellStatus status) {
-  constexpr std::array kOrder = {CellStatus::kPass,      CellStatus::kUnchecked,
-                                 CellStatus::kUndecided, CellStatus::kDiffers,
-                                 CellStatus::kMissing,   CellStatus::kFailed};
-  return std::size_t(std::ranges::find(kOrder, status) - kOrder.begin());
-}
-
 /// Whether some engine's picture has neither a comparison nor a reason why there is none.
 bool lacks_a_comparison(const CheckedCell& cell) {
   return std::ranges::any_of(cell.images, [&](const EnginePicture& image) {
@@ -81,6 +67,18 @@ const Flaw* flaw_behind(const CheckedCell& cell, const CheckedComparison& compar
 }
 
 }  // namespace
+
+int rank(const std::string& verdict) {
+  if (verdict == "pass" || verdict == "same") return 0;
+  return verdict == "undecided" ? 1 : verdict == "differs" || verdict == "different" ? 2 : 3;
+}
+
+std::size_t rank(CellStatus status) {
+  constexpr std::array kOrder = {CellStatus::kPass,      CellStatus::kUnchecked,
+                                 CellStatus::kUndecided, CellStatus::kDiffers,
+                                 CellStatus::kMissing,   CellStatus::kFailed};
+  return std::size_t(std::ranges::find(kOrder, status) - kOrder.begin());
+}
 
 std::string judge(const records::Comparison& comparison, const Metrics& metrics) {
   if (comparison.nonfinite.a > 0 || comparison.nonfinite.b > 0) return "non-finite";

@@ -1,12 +1,13 @@
 // The cells of a large site: one page for all of them, and their data in few files (decision 11).
 #pragma once
 
+#include "gallery/gallery.hpp"
 #include "gallery/index_page.hpp"
 #include "gallery/publisher.hpp"
 
 namespace lobelia::gallery {
 
-/// What a reader waits for to see one cell, and what is written anew when one changes.
+/// The number of cells that a reader waits for to see one, and that are written anew when one changes.
 inline constexpr std::size_t kCellsOfChunk = 100;
 
 /// Writes cell.html, and for each kCellsOfChunk cells a file of pages and one of thumbnails. Returns the summaries, in the

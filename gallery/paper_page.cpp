@@ -184,7 +184,7 @@ void write_claim(Html& html, const Claim& claim, const std::string& id,
   write_reference(html, claim.definition, claims);
 }
 
-/// What became of the claims that a figure shows.
+/// The verdicts of the claims that a figure shows.
 std::string finding_of(const PaperFigure& figure, const std::vector<Claim>& claims) {
   std::string finding;
   for (const VerdictInfo& verdict : kVerdicts) {

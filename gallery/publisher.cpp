@@ -119,7 +119,7 @@ void Publisher::clean(const fs::path& directory) {
 }
 
 void Publisher::write(const std::string& name, std::string_view content) {
-  // What was made meanwhile may be a part only.
+  // After an interruption, the content may be incomplete.
   throw_if_interrupted();
   add_to_list(name);
   if (is_same_text(site_ / name, content)) return;

@@ -37,7 +37,7 @@ struct ShownFarm {
   std::vector<CellEntry> cells;  ///< in the record's order
   std::map<std::vector<int>, std::size_t> cell_at;  ///< the first cell at each position
 
-  /// Of a report: its counts in the words of the summary, such as 20 and "differ".
+  /// For a report: its counts in the words of the summary, such as 20 and "differ".
   std::vector<std::pair<std::size_t, std::string>> counts = {};
   /// "cell"; of a report "pair", or where a picture has no partner "name".
   std::string_view noun() const;

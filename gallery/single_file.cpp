@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
-/// What a policy names an inline script or style by.
+/// A policy's name for an inline script or style.
 std::string source_hash(std::string_view text) {
   const Sha256Digest digest = sha256(text);
   return "'sha256-" + base64({reinterpret_cast<const char*>(digest.data()), digest.size()}) + "'";
@@ -66,7 +66,7 @@ Data data_in(std::string_view script) {
 records::InlinedPage page_in(std::string_view html) {
   const bool is_cell = html.find("data-view=\"cell\"") != std::string_view::npos;
   std::string main(between(html, "<main id=\"main\">", "</main>"));
-  // What is for readers without script is of no use in a file that needs one.
+  // Parts for readers without scripts are useless in a file that needs one.
   constexpr std::string_view kOpen = "<noscript>", kClose = "</noscript>";
   for (std::size_t from = main.find(kOpen); from != std::string::npos;
        from = main.find(kOpen, from))

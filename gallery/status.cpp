@@ -28,30 +28,17 @@ constexpr StatusInfo kInfos[] = {
     {"non-finite", "non-finite", "✕", records::info(Outcome::kNonFinite).meaning}};
 static_assert(std::size(kInfos) == kCellStatuses.size());
 
+/// In the order of Outcome.
+constexpr std::array<CellStatus, records::kOutcomes> kStatuses = {
+    CellStatus::kPass,      CellStatus::kDiffers,  CellStatus::kKnown,   CellStatus::kUndecided,
+    CellStatus::kNonFinite, CellStatus::kFailed,   CellStatus::kMissing, CellStatus::kFailed,
+    CellStatus::kFailed,    CellStatus::kUnchecked};
+
 }  // namespace
 
 const StatusInfo& info(CellStatus status) { return kInfos[int(status)]; }
 
-CellStatus status_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kPass:
-      return CellStatus::kPass;
-    case Outcome::kDiffers:
-      return CellStatus::kDiffers;
-    case Outcome::kKnown:
-      return CellStatus::kKnown;
-    case Outcome::kUndecided:
-      return CellStatus::kUndecided;
-    case Outcome::kNonFinite:
-      return CellStatus::kNonFinite;
-    case Outcome::kMissing:
-      return CellStatus::kMissing;
-    case Outcome::kExtra:
-      return CellStatus::kUnchecked;
-    default:
-      return CellStatus::kFailed;
-  }
-}
+CellStatus status_of(Outcome outcome) { return kStatuses[std::size_t(outcome)]; }
 
 StatusInfo info_of_pair(CellStatus status) {
   StatusInfo words = info(status);

@@ -53,7 +53,7 @@ struct Side {
     else
       array = picture_of(given, letter);
   }
-  /// Of a file beside an array, what an array can be compared with.
+  /// Reads a file, so that it can be compared with an array.
   void read() {
     if (!is_file) return;
     array = ArrayPicture{read_picture(name, ""), {}, {}};

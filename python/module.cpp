@@ -12,7 +12,7 @@
 namespace lobelia::python {
 namespace {
 
-/// Of Python, for records.
+/// Takes Python's command line, for records.
 void take_command_line() {
   const py::list words = py::module_::import("sys").attr("orig_argv");
   cli::command_line() = {"python3"};

@@ -176,7 +176,7 @@ std::string typescript_text() {
         &struct_type<Thumbnails>(), &struct_type<ExplorerPage>()})
     definitions.add(*page);
   std::string text =
-      "// What the program gives the pages' scripts. Written by `lobelia records --typescript > "
+      "// The program's data for the pages' scripts. Written by `lobelia records --typescript > "
       "gallery/web/src/records.ts`;\n// do not edit: records/pages.cpp has the tables.\n";
   for (const Struct* one : definitions.all()) text += "\n" + one->interface();
   return text;

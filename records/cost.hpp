@@ -1,4 +1,4 @@
-// What accuracy costs.
+// The cost of accuracy.
 #pragma once
 
 #include "records/highlight.hpp"

@@ -1,4 +1,4 @@
-// What may become of the names of a set of pictures, in the words of every report: summary, page, CSV, JUnit, Markdown and
+// Outcomes for the names of a set of pictures, in the words of every report: summary, page, CSV, JUnit, Markdown and
 // Python.
 #pragma once
 

@@ -86,17 +86,12 @@ void define_page_tables(Tables& tables) {
         "what its bytes are differences from: 1 a prediction from neighbours, 2 the first picture, 3 both");
   });
   tables.define<PackedCell>("A cell of a site in few files.", [](auto& t) {
+    t.key("main", "markup of its <main>").most_text(std::size_t{1} << 26);
     t.key("counts", "numbers of its profile's degrees and of each curve, which CellChunk has");
   });
-  tables.define<CellTexts>("The texts of a CellChunk.", [](auto& t) {
-    t.key("pieces", "tags and texts of the pages, each once");
-  });
+  tables.define<CellTexts>("The texts of a CellChunk.");
   tables.define<CellChunk>("Neighbouring cells of a site in few files.", [](auto& t) {
     t.key("texts", "CellTexts; base64, deflated");
-    t.key(
-        "order",
-        "the pages as pieces: 0 is the next new piece, 1 the end of a page, n the piece n - 2. The low 16 "
-        "bits of all, then the high ones; base64, deflated");
     t.key("curves",
           "the numbers of all profiles as gallery/packed_numbers.hpp has them; base64, deflated");
     t.key("pixels",

@@ -143,19 +143,18 @@ struct PackedShown {
 };
 
 struct PackedCell {
-  std::string id;
+  std::string id, main;
   CellPage page;
   std::vector<PackedShown> pictures;
   std::vector<int> counts;
 };
 
 struct CellTexts {
-  std::vector<std::string> pieces;
   std::vector<PackedCell> cells;
 };
 
 struct CellChunk {
-  std::string texts, order, curves;
+  std::string texts, curves;
   std::vector<std::string> pixels;
 };
 

@@ -11,9 +11,9 @@ inline constexpr char kAnalytic[] = "analytic";
 
 /// How a peak was found.
 inline constexpr std::string_view kPeakFound[] = {"fitted", "pixel", "plateau", "edge", "none"};
-/// What a highlight may be.
+/// Lobes that may explain a highlight.
 inline constexpr std::string_view kLobeFamilies[] = {"phong", "blinn_phong", "ggx", "beckmann"};
-/// What the fit of a lobe takes the pixels for.
+/// How the fit of a lobe interprets the pixels.
 inline constexpr std::string_view kPixelsShow[] = {"centres", "means", "unknown"};
 inline constexpr std::string_view kFalloffs[] = {"gaussian", "ggx"};
 /// Where standard errors come from.

@@ -83,7 +83,7 @@ void require_kind(const Json& json, std::string_view kind, const Place& place);
 /// The SHA-256 of the record without its seal. It reveals changes of the record, as the hashes in it reveal changes of files.
 std::string seal_of(Json record);
 
-/// What becomes of a text at these keys of a record, which do not count places in lists; nothing: it is left out.
+/// The new text for these keys of a record, which do not count places in lists; if empty, the text is left out.
 using TextChange = std::function<std::optional<std::string>(std::span<const std::string> keys,
                                                             const std::string& text)>;
 

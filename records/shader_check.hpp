@@ -1,4 +1,4 @@
-// What `lobelia check-shader` found of a shader function.
+// The findings of `lobelia check-shader` on a shader function.
 #pragma once
 
 #include "records/cost.hpp"

@@ -32,8 +32,8 @@ struct OwnHighlight {
   double strength = 0;
 };
 
-/// What these programs cannot be told, as a sentence; empty if they can be told all: lights that shine to one side, highlights
-/// in colour or with a Fresnel factor, mirrors, checkers.
+/// One sentence on what these programs cannot express; empty if they can express the scene: lights that shine to one
+/// side, highlights in colour or with a Fresnel factor, mirrors, checkers.
 std::string why_not_in_camera_scene(const Scene& scene);
 
 /// For programs that shade single points, without shadows: why not, as a sentence.

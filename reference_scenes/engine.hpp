@@ -43,7 +43,7 @@ struct EngineFloor {
   /// The share of the peak in a picture of the scene, besides of_value.
   double of_peak_in(const Scene& scene) const;
 };
-/// What the renderer's choice of precision allows itself (docs/numerics.md).
+/// The error that the renderer's choice of precision allows (docs/numerics.md).
 inline constexpr EngineFloor kOursFloor{.of_peak = 1e-5};
 
 /// A shading in a number format; `lobelia verify references` measures each.

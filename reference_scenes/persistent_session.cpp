@@ -342,7 +342,7 @@ class Worker {
   OrderPointer given_;        ///< the scene that the process has, until it is done
   bool current_ = false;      ///< the process has begun it
   std::optional<Done> done_;  ///< not read yet
-  // Of the process:
+  // State of the process:
   bool begun_ = false;  ///< it has begun a scene
   int threads_ = 0;
   Clock::time_point started_;

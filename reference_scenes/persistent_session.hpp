@@ -30,7 +30,7 @@ struct SceneInput {
   std::string text;
 };
 
-/// What is different between these programs. Its functions may be called from several threads.
+/// The differences between these programs. Its functions may be called from several threads.
 class PersistentProgram {
  public:
   static constexpr char kFirstFile[] = "first";
@@ -41,7 +41,7 @@ class PersistentProgram {
   virtual SceneInput input(const Scene& scene, const std::string& name) const = 0;
   /// Everything that it needs besides scenes.
   virtual void write_files(const std::filesystem::path&) const {}
-  /// What it starts with; kFirstFile with the scene's text, if there is nothing else to say.
+  /// Writes the file that it starts with: kFirstFile with the scene's text, unless overridden.
   virtual void write_first(const std::filesystem::path& directory, int threads,
                            const ReferenceOptions& options, const SceneInput& first) const;
   /// `program` is EngineStatus::program, `directory` where it is to work.

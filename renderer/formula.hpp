@@ -28,7 +28,7 @@ struct FormulaError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What one node of a formula does. kNumber to kAngle have no operands; kAdd to kMax have two; the others one.
+/// The operation of one node of a formula. kNumber to kAngle have no operands; kAdd to kMax have two; the others one.
 enum class Operation : std::uint8_t {
   kNumber,
   kVersine,   ///< s = 1 - cos x, in [0, 1)

@@ -10,11 +10,11 @@
 namespace lobelia {
 namespace {
 
-/// What is smaller counts neither in an integral nor for samples.
+/// Smaller values are ignored in integrals and in sampling.
 constexpr double kNothing = 1e-20;
 /// A narrower lobe has no digits left in s. That of cos^n with the largest n has 7e-9.
 constexpr double kNarrowest = 1e-15;
-/// Of an integral, as a share of it; the estimate is of a rule with fewer points, and so far too large.
+/// The relative error of an integral. Its estimate is that of a rule with fewer points, and so far too large.
 constexpr double kAccuracy = 1e-11;
 constexpr int kMostHalvings = 150;
 /// More than the roundings of a formula that is 1 at s = 0.
@@ -147,7 +147,7 @@ std::string FormulaLobe::why_not() const {
     return says(0, "is not a finite number; it has to be 1");
   else if (std::abs(peak - 1) > kRounding)
     return says(0, fmt::format("is {:g}; it has to be 1", peak));
-  // Of a power, which multiplies the rounding of its base.
+  // A power multiplies the rounding of its base.
   const double rounding = kRounding + 4 * std::numeric_limits<double>::epsilon() * n_;
   double lowest = 1, lowest_at = 0, rise = rounding;
   std::string rises;  // where it rises most

@@ -1,6 +1,6 @@
-// What the renderer needs of a lobe that is given by its formula and by nothing else: values point by point in float64,
-// integrals by quadrature, and random numbers from a table. Slow, and compiled once; renderer/lobes/expression.hpp makes it a
-// lobe of the catalogue.
+// The renderer's interface to a lobe that is given by its formula alone: values point by point in float64, integrals by
+// quadrature, and random numbers from a table. Slow, and compiled once; renderer/lobes/expression.hpp makes it a lobe of
+// the catalogue.
 #pragma once
 
 #include <cstddef>

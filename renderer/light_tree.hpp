@@ -18,7 +18,7 @@ namespace lobelia {
 
 class LightTree {
  public:
-  /// Of the lights at these indices that shine: all are delta lights, or all are area lights. `closeness` is the
+  /// A tree of the lights at these indices that shine: all are delta lights, or all are area lights. `closeness` is the
   /// scene's (renderer/scene/contact.hpp).
   LightTree(const std::vector<Light>& lights, std::span<const int> indices, double closeness);
 
@@ -84,7 +84,7 @@ void LightTree::find_met(const Rays& rays, std::span<const int> indices, const M
     const Task task = tasks.back();
     tasks.pop_back();
     const Node& node = nodes_[task.node];
-    // What later tasks look at is before task.end.
+    // Later tasks need only the entries before task.end.
     kept.resize(task.end);
     for (std::size_t k = task.begin; k < task.end; ++k)
       if (const std::uint16_t i = kept[k]; crosses(all[i], node)) kept.push_back(i);

@@ -169,7 +169,7 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
   }
   ProcessOptions process;
   process.working_directory = scratch.path();
-  // Of the user's own environment, which chooses drivers; but no driver keeps a shader of somebody else.
+  // The user's own variables, which choose drivers, are kept. No driver may cache another person's shader.
   process.environment = {"MESA_SHADER_CACHE_DISABLE=true", "__GL_SHADER_DISK_CACHE=0",
                          "TMPDIR=" + scratch.path().string()};
   if (!has_graphics_hardware()) process.writable = scratch.path();

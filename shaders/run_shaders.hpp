@@ -42,7 +42,7 @@ struct ShaderPoints {
   std::size_t count() const { return components == 0 ? 0 : values.size() / components; }
 };
 
-/// What a call gave for a point.
+/// The result of a call for one point.
 struct ShaderValue {
   float r = 0, g = 0, b = 0;  ///< all the same of a call that gives a number
   bool written = false;       ///< false if the shader ended without a result, such as by `discard`
@@ -50,7 +50,7 @@ struct ShaderValue {
 
 struct ShaderRun {
   std::string device, driver;  ///< as the driver names them
-  /// Of each source: the values of the first call for all points, then those of the second.
+  /// For each source: the values of the first call for all points, then those of the second.
   std::vector<std::vector<ShaderValue>> values;
   std::vector<std::vector<double>>
       seconds;  ///< of each source: for each round, a run of all points

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the page says on the console, where Chromium adds words around it. Warnings that quote the shader stand there
-/// too, but without the token.
+/// The page's lines on the console, to which Chromium adds words. Warnings that quote the shader stand there too, but
+/// without the token.
 class Heard {
  public:
   Heard(const std::string& token, std::size_t programs, std::size_t bytes)

@@ -1,4 +1,4 @@
-// What the program and lobelia_shader_runner agree on.
+// The protocol between the program and lobelia_shader_runner.
 //
 //   lobelia_shader_runner egl|vulkan TOKEN POINTS TEXELS OUTPUTS ROUNDS PROGRAM...
 //

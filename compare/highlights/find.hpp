@@ -57,7 +57,7 @@ struct LocalHighlight {
   double height() const { return top - base; }
 };
 
-/// What may move the figures of a highlight although nothing differs.
+/// Causes other than a real difference that may change the figures of a highlight.
 struct HighlightNoise {
   const NoiseOfPair* known = nullptr;
   double rounding = 0;  ///< ComparisonOptions::rounding

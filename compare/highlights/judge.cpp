@@ -41,7 +41,7 @@ struct Surroundings {
   std::array<double, 3> change{};  ///< of a - b, of each channel
 };
 
-/// Of a ring of too few pixels, the base and no change.
+/// If the ring has too few pixels: the highlight's base as the level, and no change.
 Surroundings surroundings_of(const Image& a, const Image& b, const LocalHighlight& highlight) {
   constexpr std::size_t kFewest = 16;
   Surroundings around{.level = highlight.base};
@@ -120,8 +120,8 @@ LocalErrors judge_highlight(const Image& a, const Image& b, const LocalHighlight
   errors.gone = !(in_a.sum > kGone * in_b.sum);
   if (errors.gone) return errors;
   const double scale = in_b.sum / in_a.sum;
-  // Of a small widening the pixels lose some over their edge, and the scaling takes back a part of the rest: the share
-  // that is left is known from b.
+  // With a small widening, some light leaves the pixels over their edge, and the scaling undoes a part of the rest. The
+  // share that is left follows from b.
   const double left = 2 - over_skirt.sum * in_b.spread / (in_b.sum * over_skirt.spread);
   const double of_change = highlight.spread * std::clamp(left, kLeastLeft, 1.0);
   if (of_change > 0) {

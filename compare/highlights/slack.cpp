@@ -98,7 +98,7 @@ bool add_slack(const Image& reference, const HighlightNoise& noise, double peak,
       }
     return std::pair(independent, shared);
   };
-  // Of the median over the ring, by which each pixel is off.
+  // Every pixel is off by the error of the ring's median.
   double level = 0;
   for (const std::size_t pixel : highlight.ring) level += errors_at(pixel).first;
   constexpr double kOfMedian = 1.2533;

@@ -1,4 +1,4 @@
-// What is said of highlights that were judged by themselves.
+// Sentences about highlights that were judged one by one.
 #pragma once
 
 #include "compare/highlights/judge.hpp"

@@ -26,7 +26,7 @@ struct FlipHistogram {
   double first_quartile = 0, median = 0, third_quartile = 0;  ///< weighted
 };
 
-/// Of errors from 0 to 1. All is 0 without errors.
+/// The errors are from 0 to 1. Without errors every figure is 0.
 FlipHistogram flip_histogram(std::span<const float> errors);
 
 /// RFC 4180: a line for each bucket, "from,to,pixels,weighted_per_megapixel".

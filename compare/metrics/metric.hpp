@@ -38,7 +38,7 @@ struct HdrExposures {
   /// Why an automatic range could not be chosen, so that HDR-FLIP is not measured. Empty if there is a range.
   std::string problem = {};
   ToneCurve curve = ToneCurve::kAces;
-  /// Of an automatic range: what is not chosen but given.
+  /// In an automatic range, the parts that the user gave.
   bool given_start = false, given_stop = false, given_count = false;
 };
 inline constexpr int kMaxHdrExposures = 100;
@@ -113,14 +113,14 @@ constexpr std::string_view region_name(Region region) {
   return kNames[std::size_t(region)];
 }
 
-/// What is known by pixel of a pair of layers that are no colours; see compare/layer_types.hpp.
+/// Facts by pixel about a pair of layers that are not colours; see compare/layer_types.hpp.
 struct LayerInput {
   LayerType type = LayerType::kColour;
-  /// Of depth: 0 where both have a surface, 1 where neither has, 2 where one alone has. Values of what is no surface are 0.
+  /// For depth: 0 where both have a surface, 1 where neither has, 2 where only one has. Values without a surface are 0.
   PixelFlags background = {};
-  /// Of identifiers: not 0 where they differ. The pictures of MetricInput are black.
+  /// For identifiers: not 0 where they differ. The pictures of MetricInput are black.
   PixelFlags differs = {};
-  /// Of a Cryptomatte: the largest difference between the shares of the pixel that one object covers; else empty.
+  /// For a Cryptomatte: the largest difference between the shares of the pixel that one object covers; else empty.
   PixelValues coverage = {};
 };
 

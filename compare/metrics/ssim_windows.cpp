@@ -123,7 +123,7 @@ void along_lanes(const Taps& taps, const MomentRows& in, const MomentRows& out, 
                  out[m] + i);
 }
 
-/// Of rows that are filtered along: writes l c s and c s of each window.
+/// Writes l c s and c s of each window, from rows that are filtered along.
 void similarity_lanes(const Taps& taps, const MomentRows* rows, double* similarity,
                       double* contrast, std::size_t count) {
   using Real = LanesOf<Block>;

@@ -36,14 +36,14 @@ struct SsimMeans {
   double contrast_structure = 0;  ///< c s, without the luminance term
 };
 
-/// What SSIM sees of two pictures at one scale.
+/// The results of SSIM for two pictures at one scale.
 struct SsimScale {
   std::vector<SsimMeans> of_region;  ///< 0 without a window
   /// The next scale, rounded up: means of 2 x 2 pixels. An odd border repeats its pixels.
   LumaPlane half_a, half_b;
 };
 
-/// Of regions by pixel, not 0 inside; an empty one is the whole picture. The sides must be at least kSsimSide.
+/// Regions are not 0 at pixels inside; an empty one is the whole picture. The sides must be at least kSsimSide.
 SsimScale ssim_scale(const LumaRows& a, const LumaRows& b,
                      std::span<const std::span<const std::uint8_t>> regions);
 

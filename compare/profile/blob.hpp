@@ -66,7 +66,7 @@ struct BlobOptions {
   std::vector<const PictureNoise*> noise;  ///< [picture]; null or missing: unknown
 };
 
-/// What was found in a picture, and is none of the measured highlights.
+/// A picture's findings that are not measured highlights.
 struct BlobPicture {
   std::string name;
   std::vector<Speck> specks;  ///< the brightest first

@@ -11,7 +11,7 @@
 namespace lobelia {
 namespace {
 
-/// Of the ellipse of the half-widths: which pixels of noise are above half would move it.
+/// The centroid within the ellipse of the half-widths. Within the pixels above half it would move with their noise.
 FilmPoint centroid(const Field& above, const BlobMeasurement::Result& result, const Axes& rough) {
   const FilmPoint middle = result.outline.peak.place, major = rough.major;
   const double a = result.outline.half_width(0), b = result.outline.half_width(1);
@@ -33,7 +33,7 @@ FilmPoint centroid(const Field& above, const BlobMeasurement::Result& result, co
   return sum > 0 ? FilmPoint{centre.x / sum, centre.y / sum} : rough.centre;
 }
 
-/// What is left beneath a blob after its background: a level, and a slope where the ring around it is whole.
+/// The rest beneath a blob after its background: a level, and a slope where the ring around it is whole.
 struct Plane {
   double value;  ///< at the middle
   FilmPoint slope;
@@ -76,7 +76,7 @@ Plane plane_of(const Field& above, const std::vector<std::size_t>& ring, const A
 
 /// The energy of a curve in the disc of its own long half-width.
 double energy_of(const FalloffFit& curve, const Field& field) {
-  // Of a small highlight a pixel's centre is not its mean.
+  // In a small highlight, a pixel's mean differs from the value at its centre.
   constexpr double kSmall = 15;
   const int parts = curve.major_half_width.value < kSmall ? 3 : 1;
   const double reach = kEnergyReach * std::max(1.0, kSemiAxis * curve.major_half_width.value);

@@ -13,7 +13,7 @@ inline constexpr double kEnergyReach = 3;  ///< of the disc, in long semi-axes
 /// 2 sigma of the pixels above half of a Gaussian, weighted by their height, over its half-width.
 inline constexpr double kSemiAxis = 0.941;
 
-/// What is known before, in the coordinates of a field of the blob over its background.
+/// The facts known in advance, in the coordinates of a field of the blob over its background.
 struct BlobMeasurement {
   std::vector<std::size_t> region, ring;
   Axes rough;

@@ -99,7 +99,7 @@ class Regions {
         if (!(field_.values[i] >= level) || seen_[i] == round_) return;
         seen_[i] = round_;
         region.pixels.push_back(i);
-        // Of equal pixels, the first is the peak.
+        // The first of equal pixels is the peak.
         if (field_.values[i] > field_.values[start] ||
             (field_.values[i] == field_.values[start] && i < start))
           region.brighter = i;

@@ -24,7 +24,7 @@ Field squared_angles(const ProfileGeometry& geometry) {
   return squared;
 }
 
-/// Of both sides of one axis of the outline.
+/// The mean over both sides of one axis of the outline.
 HalfWidth half_width(const Outline& outline, const Field& squared_angle, FilmPoint along,
                      int axis) {
   HalfWidth width{outline.half_width(axis), 0};
@@ -244,7 +244,7 @@ std::string why_elsewhere(const ProfileGeometry& geometry, const HighlightFigure
   constexpr double kAway = 0.75, kMisfit = 0.03, kOfNoise = 1.2;
   const double misfit = figures.explanations.front().fit.residual;
   if (!(away > kAway * pixels) || !(misfit > std::max(kMisfit, kOfNoise * noise))) return "";
-  // Of the lobe's own angle there, unless the scene's peak is not at the angle 0.
+  // The lobe's own angle there, unless the scene's peak is not at the angle 0.
   const double at_middle = std::sqrt(std::max(0.0, sample(squared_angle, geometry.middle)));
   const double there = std::sqrt(std::max(0.0, sample(squared_angle, figures.peak.place)));
   const double off = there > 10 * at_middle ? there : away * angle / pixels;

@@ -430,7 +430,7 @@ std::vector<FamilyFit> families_of(const Explained& explained) {
   const Candidate& best = explained.families.front();
   for (const Candidate& one : explained.families) {
     result.push_back(one.family);
-    // Of the same peak: beyond clipped pixels another family may go far higher.
+    // Relative to the same peak: beyond clipped pixels, another family may rise far higher.
     if (best.rms > 0) result.back().fit.residual = one.rms / best.rms * best.family.fit.residual;
     result.back().apart =
         one.family.fit.why_not.empty() ? told_apart(explained.half.pixels, best, one) : kNaN;
@@ -469,7 +469,7 @@ Explanation explain_highlight(std::span<const SeenLobe> pixels, bool shared, Pix
   const Candidate &a = centres.families.front(), &b = means.families.front();
   if (!b.family.fit.why_not.empty()) return by_centres;
   if (!a.family.fit.why_not.empty()) return by_means;
-  // Of the pixels that both fit.
+  // Judged by the pixels that both fit.
   if (told_apart(means.half.pixels, b, a) >= kToldApart) return by_means;
   if (told_apart(means.half.pixels, a, b) >= kToldApart) return by_centres;
   for (FamilyFit& one : by_centres.families) {

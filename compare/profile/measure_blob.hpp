@@ -6,7 +6,7 @@
 
 namespace lobelia {
 
-/// What one picture offers to each of its blobs.
+/// The input that one picture gives to the measurement of each of its blobs.
 struct BlobSource {
   const Image* image;
   const FoundBlobs* found;

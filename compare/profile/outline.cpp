@@ -13,7 +13,7 @@ constexpr double kQuiet = 2e-3;  // of the peak; half floats and 8 bits have les
 constexpr int kTerms = 15;       // of degree 4
 // Highlights of fewer pixels differ from a polynomial by more than noise, and scatter_of() takes their shape for noise.
 constexpr double kFewestPixels = 40, kFewestInWindow = 25;
-// Of the half-widths. The error by the shape grows with the sixth power of the window, as kShapeError for a Gaussian.
+// In half-widths. The error by the shape grows with the sixth power of the window, as kShapeError for a Gaussian.
 constexpr double kLargestWindow = 1.2, kShapeError = 0.0028, kUndersmoothing = 0.85;
 // A wide highlight is first averaged over squares, so that a half-width has at most twice so many of them.
 constexpr double kFinest = 12;

@@ -42,7 +42,7 @@ class ZoneErrorSums {
 /// Pictures by name, in the order of the report. One may be the formula: "analytic".
 using NamedImages = std::vector<std::pair<std::string, const Image*>>;
 
-/// What else the pixels see, for fits of any lobe. In reading order; NaN where ProfileGeometry::angle is.
+/// More geometry of the pixels, for fits of any lobe. In reading order; NaN where ProfileGeometry::angle is.
 struct LobeGeometry {
   std::span<const double> reflection, half_vector;  ///< angles, radians
   std::span<const double> n_dot_l, n_dot_v;
@@ -70,7 +70,7 @@ struct ProfileGeometry {
   /// Unit vector in the picture, y down, along the plane of incidence; none if eye, sphere and light lie on a line.
   std::optional<FilmPoint> incidence = {};
   std::optional<LobeGeometry> lobes = {};
-  /// What the pixels show. Means need `mean`, of a pixel by its index; it is called from one thread.
+  /// Whether pixels show centres or means. Means need `mean`, of a pixel by its index; it is called from one thread.
   PixelsShow pixels = PixelsShow::kCentres;
   std::function<PixelMean(std::size_t pixel)> mean = {};
   std::size_t nodes_per_pixel = 1;
@@ -104,7 +104,7 @@ struct HighlightFigures {
   std::optional<HighlightErrors> errors;
 };
 
-/// What is known of a picture besides its values.
+/// Facts about a picture besides its values.
 struct PictureFacts {
   const PictureNoise* noise = nullptr;  ///< null: unknown
   std::vector<bool> clipped = {};       ///< of each pixel; empty: none. Fits leave these out.

@@ -27,7 +27,7 @@ double float_step(double value, int digits, double least) {
 bool StoredSteps::holds(Kind kind, double levels, float value) {
   if (kind == Kind::kHalf) return rounded_to_half(double(value)) == double(value);
   if (!(value >= 0 && value <= 1)) return false;
-  // What a float's own rounding leaves, and a decoder's.
+  // The rounding of a float, and of a decoder.
   constexpr double kExact = 0.02;
   const double stored =
       levels * (kind == Kind::kSrgb ? srgb_encoded(double(value)) : double(value));

@@ -1,4 +1,4 @@
-// What a user chooses about a comparison, and the table of these options. Command line, Python, the C++ library, the farm
+// A user's choices for a comparison, and the table of these options. Command line, Python, the C++ library, the farm
 // and the studies all fill the same struct.
 #pragma once
 
@@ -59,7 +59,7 @@ struct CompareOption {
       std::variant<bool CompareChoice::*, int CompareChoice::*, std::uint64_t CompareChoice::*,
                    double CompareChoice::*, std::string CompareChoice::*,
                    std::vector<std::string> CompareChoice::*>;
-  /// What it is for: any two pictures, also such as are in memory; pictures that are files; or sets of files.
+  /// The comparisons that it is for: of any two pictures, even in memory; of pictures in files; or of sets of files.
   enum class For : std::uint8_t { kPictures, kFiles, kSets };
 
   std::string_view name;  ///< "no-default-limits"; Python and C++ have it with underscores, too
@@ -77,7 +77,7 @@ struct CompareOption {
 /// The table, in the order of the help.
 std::span<const CompareOption> compare_options();
 
-/// What was given for an option by its name.
+/// An option that was given by its name, with its texts.
 struct GivenOption {
   std::string name;
   /// One text, or several where that is allowed; for a flag also none, which is "true". Not set: nothing was given.

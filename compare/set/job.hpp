@@ -40,7 +40,7 @@ struct CompareJob {
   bool hash_files = false;  ///< for PairReport::hashes
 };
 
-/// What a scene says of a picture, by pixel. Reading one belongs to the front end, because this room knows no scenes.
+/// A scene's facts about a picture, by pixel. Reading one belongs to the front end, because this room knows no scenes.
 struct SceneParts {
   PixelFlags surfaces;  ///< not 0 where a surface is seen
   PixelFlags edges;  ///< not 0 at silhouettes, terminators and shadow edges; empty unless asked for
@@ -67,7 +67,7 @@ std::vector<MetricLimit> with_limits(std::vector<MetricLimit> limits,
 
 /// The job with the rules that fit a pair of this name.
 CompareJob job_of(const CompareJob& job, const std::string& name);
-/// What the project says of a pair of this name.
+/// The project's entry for a pair of this name.
 std::optional<records::Known> known_of(const CompareJob& job, const std::string& name);
 
 /// Whether there is one pair, whose files were given by themselves.

@@ -10,7 +10,7 @@ namespace lobelia {
 
 /// Pictures of the same thing, at most one of each set.
 struct PictureRow {
-  /// Of all of them, such as "lights/area.exr", a frame's number, or the values of a pattern's fields, joined by '/'.
+  /// Shared by all files, such as "lights/area.exr", a frame's number, or the values of pattern fields, joined by '/'.
   std::string name;
   std::vector<std::string> files;        ///< by set; empty where it has none
   std::vector<std::string> fields = {};  ///< values of Pairing::fields

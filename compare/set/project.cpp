@@ -78,7 +78,7 @@ void fill_in_noise(const records::Project& project, const FromProject& from,
   const auto is_from_layers = [&](const char* letter) {
     return choice.noise_from_layers == letter || choice.noise_from_layers == "both";
   };
-  // What is beside each picture has no folder.
+  // A pattern such as "*_variance.exr", for a file beside each picture, has no folder.
   const auto file = [&](const std::string& given) {
     return given.starts_with('*') ? given : from(given);
   };

@@ -271,7 +271,7 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
 
 std::string highlight_sentence(const Comparison& comparison, std::string_view a,
                                std::string_view b) {
-  // What explains the whole difference says more than figures of the highlight.
+  // An explanation of the whole difference says more than figures of the highlight.
   std::vector<std::string> faults;
   for (const records::Fault& fault : comparison.faults) faults.push_back(fault_text(fault, a, b));
   if (!faults.empty()) return fmt::format("{}", fmt::join(faults, "; "));

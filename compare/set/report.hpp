@@ -48,7 +48,7 @@ using Outcome = records::Outcome;
 
 Outcome outcome_of(const PairReport& pair);
 
-/// What became of a pair or of a name.
+/// The outcome of a pair or of a name.
 struct NameOutcome {
   records::Outcome outcome;
   std::string name;
@@ -59,7 +59,7 @@ struct NameOutcome {
   /// Why it does not pass; empty if it does.
   std::string why() const;
 };
-/// Of all pairs in their order, then of all names without a pair. Summaries and reports follow from these.
+/// The outcomes of all pairs in their order, then of all names without a pair. Summaries and reports follow from these.
 std::vector<NameOutcome> outcomes(const SetReport& report);
 
 records::SetSummary count(const SetReport& report);
@@ -104,9 +104,9 @@ struct MetricSummary {
 /// A summary of every output that takes a limit, in the catalogue's order.
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
-/// What an artist would say of the highlight: "a's highlight is 4 % wider and 7 % dimmer, its energy equal; 0.5 pixels to
-/// the left". In place of that, faults that explain the difference: "a is clipped at 1 where b goes up to 12". Empty if it was
-/// not measured.
+/// The highlight's difference in an artist's words: "a's highlight is 4 % wider and 7 % dimmer, its energy equal; 0.5
+/// pixels to the left". In place of that, faults that explain the difference: "a is clipped at 1 where b goes up to 12".
+/// Empty if it was not measured.
 std::string highlight_sentence(const Comparison& comparison, std::string_view a = "a",
                                std::string_view b = "b");
 
@@ -149,7 +149,7 @@ struct Problem {
   std::string name, why;
   const PairReport* pair = nullptr;  ///< of a pair with a comparison
 };
-/// Of a pair with a comparison; nothing if it passes.
+/// The weight of a pair with a comparison; nothing if it passes.
 std::optional<Problem::Weight> weight_of(const PairReport& pair);
 /// All of them: first what could not be compared, then the pairs, the worst first, then what is no failure.
 std::vector<Problem> problems(const SetReport& report);

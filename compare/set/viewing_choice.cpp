@@ -28,7 +28,7 @@ HdrExposures parse_exposures(const std::string& text) {
   if (good) {
     range.given_start = parse_end(parts[0], range.start_stops, good);
     range.given_stop = parse_end(parts[1], range.stop_stops, good);
-    // What is free comes from the reference, once it is read.
+    // The ends that are not given come from the reference, once it is read.
     range.automatic = !range.given_start || !range.given_stop;
     if (!range.given_start) range.start_stops = range.stop_stops;
     if (!range.given_stop) range.stop_stops = range.start_stops;

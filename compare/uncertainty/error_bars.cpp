@@ -38,7 +38,7 @@ struct Spreads {
   Spread noisier, nothing;  ///< distances of noisier pictures, and of noise alone
 };
 
-/// What the noise of a region tells of itself.
+/// The reliability of a region's noise, estimated from the noise itself.
 struct RegionNoise {
   double freedom = kInfinity;    ///< Satterthwaite's, of the sum over its pixels
   double floor_uncertainty = 0;  ///< variance of a noise floor, in units of the figure's

@@ -41,8 +41,8 @@ struct PictureNoise {
   double pooled_freedom = 0;  ///< of a value of `cautious`
   bool shared = false;        ///< pixels err together: they share their points, or were filtered
   std::string layer = {};     ///< of the picture's file that says it; empty for other files
-  /// Of each replicate but the last, its difference from the mean: their sum is less than that of the last one. How the
-  /// channels of a pixel err together, and how heavy the tails are, is in them. Empty for noise of another source.
+  /// The difference from the mean of each replicate but the last: their sum is less than that of the last one. They show
+  /// how the channels of a pixel err together, and how heavy the tails are. Empty for noise of another source.
   std::vector<Image> deviations = {};
   /// The share of pixels with a firefly: an error of more than kFireflyFactor times those of all eight neighbours.
   double fireflies = 0;

@@ -105,7 +105,7 @@ double variance_of(const PictureNoise* noise, std::size_t i) {
   return error * error;
 }
 
-/// What is left of a picture where its values vary no more than by the noise: their mean over 5 x 5 pixels.
+/// The picture averaged over 5 x 5 pixels where its values vary no more than by the noise.
 Image smoothed(const Image& image, const NoiseOfPair& noise) {
   constexpr int kReach = 2;
   Image result = image;

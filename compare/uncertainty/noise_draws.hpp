@@ -39,14 +39,14 @@ inline double gaussian(std::uint64_t stream, std::uint64_t index) {
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
-/// What errs together in a draw.
+/// The values that err together in a draw.
 enum class Together : std::uint8_t {
   kNothing,   ///< each value errs by itself; replicates tell better, and are drawn as kChannels
   kChannels,  ///< the three values of a pixel
   kPicture,   ///< all values of a picture with shared noise; of another one as kChannels
 };
 
-/// What may err together in the pictures of a pair: the worst of these counts, as it is not known.
+/// The candidates for a pair of pictures. Which one holds is not known, so the worst counts.
 std::vector<Together> what_may_err_together(const NoiseOfPair& noise);
 
 /// `image` with one draw of the noise, of its size; as it is where `noise` is null.

@@ -98,7 +98,7 @@ class Missing {
   std::vector<JobIndex> jobs_;  ///< of the last answer
 };
 
-/// Of what the last element does by the record, so not of the command: another client may go on with the run.
+/// The hash of what the last element does by the record. The command is left out: another client may continue the run.
 Sha256Digest hash_of_run(records::FarmRun record) {
   record.command.clear();
   return sha256(records::record_text(record));

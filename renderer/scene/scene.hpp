@@ -65,7 +65,7 @@ double outer_radius(const Sphere& sphere);
 struct Plane {
   Vec3 point, normal;  ///< normal of unit length
   int material = 0;    ///< index into Scene::materials
-  /// Of every other square; the same as `material` without a checker.
+  /// The material of every other square; the same as `material` without a checker.
   int checker_material = 0;
   double checker_size =
       1;  ///< side of a square, > 0; squares are along tangents(normal) from `point`

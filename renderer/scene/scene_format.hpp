@@ -25,7 +25,7 @@ inline constexpr int kMaxSpheres = 1 << 22;  ///< with those of lattices
 inline constexpr int kMaxPlanes = 16;
 inline constexpr int kMaxMaterials = 1024;
 inline constexpr int kMaxDepth = 64;
-/// Of a film. A picture over kMaxImagePixels is rendered in rows and never held in memory.
+/// The limit for a film. A picture over kMaxImagePixels is rendered in rows and never held in memory.
 inline constexpr std::int64_t kMaxFilmPixels = std::int64_t{1} << 28;
 /// Why the film's picture is too large to be held in memory, in words; empty if it is not.
 std::string whole_picture_problem(const Film& film);

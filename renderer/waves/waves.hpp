@@ -147,7 +147,7 @@ struct Workspace {
   std::array<LightTree::Choice, kChunk> chosen;  ///< one of many lights, for each hit
   std::vector<std::uint16_t> by_light;           ///< hits, sorted by it
   std::vector<int> looking;  ///< rays that may meet one of many lights, or the sky
-  // Of hits or rays that one of many lights is for.
+  // The subset of hits or rays for which one of many lights was chosen.
   Vec3Chunk part_point{}, part_to_eye{};
   RandomPairs part_random;
   LightSamples part_drawn;

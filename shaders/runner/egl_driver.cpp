@@ -120,7 +120,7 @@ class EglDriver : public Driver {
 
   void add(const std::string& program) override {
     const GLuint made = gl_.glCreateProgram();
-    // Of the same version, which is the first line: GLSL ES does not go with GLSL.
+    // Both need the same version, given in the first line: GLSL ES and GLSL cannot be linked.
     attach(
         made, GL_VERTEX_SHADER,
         program.substr(0, program.find('\n')) +

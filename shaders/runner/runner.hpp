@@ -34,7 +34,7 @@ class Driver {
   virtual void add(const std::string& program) = 0;
   /// Runs program `k` and waits for its end.
   virtual void run(std::size_t k) = 0;
-  /// What the last run wrote: four floats for each invocation.
+  /// The output of the last run: four floats for each invocation.
   virtual std::vector<float> results() = 0;
 };
 

@@ -48,7 +48,7 @@ Verdict verdict_of(const Variant& variant, const Case& one, const Figures& figur
   const auto target = target_of(variant, one);
   if (!target) return Verdict::kNoTarget;
   const double value = target->relative ? figures.max_relative : figures.max_of_peak;
-  // What is off by more anywhere is off in the ring, too.
+  // Larger errors also count inside the ring.
   const bool ring_counts = target->relative || target->limit < kRingOfPeak;
   return value <= target->limit && (!ring_counts || figures.ring_over <= ring_allowed)
              ? Verdict::kMet

@@ -29,7 +29,7 @@ std::span<const Variant> variants();
 /// Two engines with the same reimplemented formula, compared with each other.
 Variant pair_of(std::string_view first, std::string_view second);
 
-/// What the largest difference of a picture is held to: the variant's floor.
+/// The limit for a picture's largest difference: the variant's floor.
 struct Target {
   bool relative = false;  ///< a share of each value, not of the peak
   double limit = 0;

@@ -31,7 +31,7 @@ void measure_blob(const MadeBlob& made, bool clipped, Row& row) {
   const BlobFigures blob =
       measure_blobs({{"made", &made.image}}, options).highlights.front().blobs.front();
   const BlobErrors& e = blob.errors;
-  // Of a clipped highlight, only what its flank says is meant.
+  // If the highlight is clipped, the peak is the one that its flank gives.
   if (clipped) {
     if (blob.clipped) {
       const Estimate& peak = blob.clipped->flank.peak;

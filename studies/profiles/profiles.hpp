@@ -13,7 +13,7 @@
 
 namespace lobelia::profile_study {
 
-/// Of one figure in all pictures of a kind.
+/// Counts for one figure over all pictures of a kind.
 struct Tally {
   int figures = 0;     ///< that have a standard error
   int within_one = 0;  ///< standard error of the truth

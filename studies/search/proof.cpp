@@ -78,10 +78,10 @@ Jet chain(const Jet& y, const Interval& f, const Interval& first, const Interval
           second * bi::square(y.v) + first * y.vv};
 }
 
-/// What nothing is known of. Products with it stay finite.
+/// A value that is not known at all. Products with it stay finite.
 Interval anything() { return {-1e100, 1e100}; }
 
-/// Of the value from that of y. The corners of M have no second derivative, but slopes between those beside them.
+/// The lobe's value from y. The corners of M have no second derivative, but slopes between those beside them.
 Jet outside(const Shape& shape, const Jet& y) {
   const double low = y.f.lower(), high = y.f.upper();
   Jet value;

@@ -14,7 +14,7 @@ struct Proof {
                    ///< the proof would take too long
   long boxes = 0;  ///< of s and n that were looked at
 };
-/// What the proof may add to the largest error, relative.
+/// The relative slack that the proof may add to the largest error.
 inline constexpr double kSlack = 5e-3;
 
 /// By branch and bound over boxes of (t, v), in interval arithmetic with outward rounding, to second order.

@@ -38,7 +38,7 @@ std::string certificate_text(const records::SearchedLobe& lobe) {
   return table_text(table) + "\n";
 }
 
-/// What was asked for: found, or the best that there is.
+/// The lobe that was asked for, or else the best that there is.
 std::string answer(const records::LobeSearch& found, const Request& request) {
   if (!request.error && !request.price) return "";
   const auto chosen = std::ranges::find(found.lobes, found.chosen, &records::SearchedLobe::name);
@@ -59,7 +59,7 @@ std::string answer(const records::LobeSearch& found, const Request& request) {
   if (!request.error)
     return fmt::format("No lobe of the family '{}' has so few operations: {}.\n\n", found.family,
                        *request.price);
-  // Of those that were searched, not of the paper's and Schlick's.
+  // The best of the lobes that were searched, without the paper's and Schlick's.
   const records::SearchedLobe* best = nullptr;
   for (const records::SearchedLobe& lobe : found.lobes)
     if (lobe.bound && lobe.name[1] == 'k' &&

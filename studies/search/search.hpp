@@ -43,7 +43,7 @@ int most_price(const Request& request);
 /// is empty if nothing is asked for, or no lobe meets it. Throws Error(kUsage) if that error is below the precision's.
 records::LobeSearch search(const Request& request);
 
-/// Of a lobe, by the metric, with the rounding of the precision: the bound itself for "max".
+/// A lobe's error by the metric, with the rounding of the precision: the bound itself for "max".
 double error_of(const records::SearchedLobe& lobe, const std::string& metric);
 
 /// The table; the chosen one first, with its formula; or what is the best that is possible.

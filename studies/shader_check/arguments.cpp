@@ -13,7 +13,7 @@
 namespace lobelia::shader_check {
 namespace {
 
-/// Of a point, what arguments are made of.
+/// The facts about a point from which arguments are computed.
 struct Known {
   const Point& point;
   Geometry geometry;

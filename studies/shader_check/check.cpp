@@ -79,7 +79,7 @@ void require_function(const Request& request, const ShaderSource& source) {
                                           did_you_mean(request.function, known)));
 }
 
-/// What a part of the plan gave, beside the model in double.
+/// The results of a part of the plan, beside the model in double.
 class Judge {
  public:
   Judge(const Request& request, const Plan& plan, const std::vector<ShaderValue>& values)

@@ -1,4 +1,4 @@
-// What a shader function costs beside ours and pow, and what half floats would make of it.
+// The cost of a shader function beside ours and pow, and the effect of half floats on it.
 #pragma once
 
 #include "studies/shader_check/arguments.hpp"

@@ -58,7 +58,7 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// What a candidate leaves, in tolerances.
+/// The differences that a candidate leaves, in tolerances.
 struct Left {
   double almost_all = 0, most = 0, most_of_peak = 0;
   void add(const Group& group, std::vector<double> differences) {
@@ -221,7 +221,7 @@ class Search {
     keep(std::move(candidate));
   }
 
-  /// Of equals the one that was tried first, unless another leaves far less.
+  /// Keeps the first of equal candidates, unless another leaves far less.
   void keep(Candidate candidate) {
     const auto better = [&] {
       if (!best_) return true;

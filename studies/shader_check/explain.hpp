@@ -1,4 +1,4 @@
-// What explains the difference between a shader and its model.
+// Explanations for the difference between a shader and its model.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lobelia::shader_check {
 
-/// What a shader gave. Values that are not finite are left out by explain().
+/// A shader's values. explain() ignores those that are not finite.
 struct Observed {
   std::vector<Point> points;
   std::vector<double> values;
@@ -26,7 +26,7 @@ struct Explanation {
   std::vector<FactorAt> factors;  ///< where a coefficient can be told
 };
 
-/// What float32 leaves of a power of a cosine as in textbooks, relative to the peak; an explanation may leave as much.
+/// The rounding in float32 of a textbook's power of a cosine, relative to the peak; an explanation may leave as much.
 double textbook_rounding(double exponent);
 /// The largest error of a shader that passes, relative to the peak: the same, but no more than anybody could see.
 double allowed_error(double exponent);

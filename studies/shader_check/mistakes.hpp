@@ -14,7 +14,7 @@ namespace lobelia::shader_check {
 /// The parts of a model that a mistake may change. A shader has at most one mistake in each.
 enum class Part : std::uint8_t { kAngle, kExponent, kLobe, kCosine, kBehind, kRounding, kCount };
 
-/// What a formula is made of, before a coefficient. Mistakes change members.
+/// The parts of a formula, before a coefficient. Mistakes change members.
 struct Formula {
   LobeAngle angle;
   LobeId lobe;
@@ -50,7 +50,7 @@ struct CoefficientMistake {
 };
 std::span<const CoefficientMistake> coefficient_mistakes();
 
-/// What is done to the result.
+/// A mistake in the use of the result.
 struct OutputMistake {
   std::string_view id, words;
   double (*value)(double radiance);

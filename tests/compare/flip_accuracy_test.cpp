@@ -173,7 +173,7 @@ std::vector<double> plain_flip(const DisplayLight& shown_a, const DisplayLight& 
 /// Measured: at most 2.6e-7 over all tests of this file, on every instruction set.
 constexpr double kBound = 1e-6;
 
-/// Of all pixels and instruction sets.
+/// The largest error over all pixels and instruction sets.
 double largest_error(const DisplayLight& a, const DisplayLight& b, double pixels_per_degree) {
   const std::vector<double> plain = plain_flip(a, b, pixels_per_degree);
   double largest = 0;

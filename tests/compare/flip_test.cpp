@@ -127,7 +127,7 @@ TEST(ToneCurve, IsItsFormulaInDoubleToSixDigits) {
         const double gain = std::exp2(stops);
         const auto expected = plainly_toned({gain * v[0], gain * v[1], gain * v[2]}, curve);
         const Rgb is = fixtures::shown_at(shown, i);
-        // Of a value without end the formula's other channels are lost.
+        // An infinite value loses the formula's other channels.
         if (v[0] > 1e30f) {
           EXPECT_EQ(is.r, 1);
           continue;

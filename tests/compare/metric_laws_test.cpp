@@ -206,7 +206,7 @@ TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
 }
 
 TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
-  // Of each metric at least one output sees the difference of each pair; none is better or NaN.
+  // At least one output of each metric sees the difference of each pair; none is better or NaN.
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
       const std::vector<double> values = measure(*metric, a, b);
@@ -241,7 +241,7 @@ void expect_ever_worse(const Image& reference, const std::vector<Image>& picture
       const std::vector<double> values = measure(*metric, pictures[k], reference);
       for (std::size_t i = 0; i < values.size(); ++i) {
         const MetricOutput& output = metric->outputs[i];
-        // What cancels in a signed mean or in a centroid is rounding there.
+        // Values that cancel in a signed mean or in a centroid leave only rounding.
         const bool cancels = output.better == Better::kNearZero || output.id == "shift.highlight";
         const double rounding = cancels ? 1e-6 : 0;
         if (is_judged(output)) {

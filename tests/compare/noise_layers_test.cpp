@@ -151,7 +151,7 @@ TEST_F(NoiseLayers, HaveTheTrueSizeFromMitsuba) {
       beyond += std::abs(apart) > 1.96 * error;
     }
   }
-  // Of 6912 values 346 are expected, with a spread of 18.
+  // 346 of 6912 values are expected, with a spread of 18.
   EXPECT_NEAR(beyond / double(all), 0.05, 0.011);
 }
 

@@ -1,4 +1,4 @@
-// What is measured on request: 8-bit code values, pixels over a threshold, and lists of metrics.
+// Metrics on request: 8-bit code values, pixels over a threshold, and lists of metrics.
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/code_values.hpp"

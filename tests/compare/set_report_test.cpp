@@ -1,4 +1,4 @@
-// What becomes of a set of pictures, and the files that tell it.
+// Reports on a set of pictures, and their files.
 #include <fmt/format.h>
 
 #include <pugixml.hpp>

@@ -1,4 +1,4 @@
-// What is found of two pictures with noise, and what their error bars hold.
+// Error bars and verdicts of two pictures with noise.
 #include <oneapi/tbb/global_control.h>
 
 #include <boost/math/distributions/binomial.hpp>

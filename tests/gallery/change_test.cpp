@@ -1,4 +1,4 @@
-// What changed since an earlier run: the rule, and the pages.
+// Changes since an earlier run: the rule, and the pages.
 #include "gallery/change.hpp"
 
 #include "core/error.hpp"

@@ -52,7 +52,7 @@ class FakeFarm {
   records::Farm farm_;
 };
 
-/// What the command line hands over of a few metrics.
+/// The command line's information on a few metrics.
 std::vector<MetricInfo> some_metrics();
 
 /// A complete PNG of 2 x 2 pixels.

@@ -1,4 +1,3 @@
-#include "gallery/cell_chunk.hpp"
 #include "gallery/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
@@ -67,14 +66,6 @@ TEST_F(PackedGallery, IsMadeWithoutAPictureThatCannotBeDecoded) {
   write_file(farm_.cell_directory(FakeFarm::kPass) / "lobelia.png", damaged);
   farm_.seal(FakeFarm::kPass);
   for (const bool packed : {true, false}) EXPECT_NO_THROW(publish(packed)) << packed;
-}
-
-TEST(CellChunk, TakesMarkupApartWithoutALoss) {
-  EXPECT_THAT(pieces_of("<p class=\"a\">one &lt; two</p>rest"),
-              ElementsAre("<p class=\"a\">", "one &lt; two", "</p>", "rest"));
-  EXPECT_THAT(pieces_of("text"), ElementsAre("text"));
-  EXPECT_THAT(pieces_of(""), IsEmpty());
-  EXPECT_THAT(pieces_of("<unfinished"), ElementsAre("<unfinished"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a cell's page and the index say in words.
+// The words of a cell's page and of the index.
 #include "gallery/cell_page.hpp"
 #include "gallery/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"

@@ -61,7 +61,7 @@ TEST(Installed, DataAndPagesAreThoseOfTheSource) {
   expect_same("lobelia/grids", "reference_scenes/grids");
   expect_same("lobelia/schemas", "docs/reference");
   expect_same("doc/lobelia/docs", "docs");
-  // What the program wrote.
+  // Files that the program wrote.
   for (const char* file :
        {"lobelia/schemas/render.schema.json", "doc/lobelia/docs/reference/README.md",
         "doc/lobelia/docs/reference/render.md"})

@@ -65,7 +65,7 @@ TEST(ManPages, CoverEveryCommandAndOptionWithoutAWarning) {
   }
 }
 
-/// What the last word of `line` may become.
+/// The completions of the last word of `line`.
 std::set<std::string> completed(const std::string& line) {
   const std::string script =
       "source \"$PREFIX\"/share/bash-completion/completions/lobelia; compopt() { :; }; "

@@ -1,4 +1,4 @@
-// What the program gives the pages' scripts. Written by `lobelia records --typescript > gallery/web/src/records.ts`;
+// The program's data for the pages' scripts. Written by `lobelia records --typescript > gallery/web/src/records.ts`;
 // do not edit: records/pages.cpp has the tables.
 
 /** An axis of the grid. */
@@ -237,8 +237,6 @@ export interface CellIndex {
 export interface CellChunk {
   /** CellTexts; base64, deflated */
   texts: string;
-  /** the pages as pieces: 0 is the next new piece, 1 the end of a page, n the piece n - 2. The low 16 bits of all, then the high ones; base64, deflated */
-  order: string;
   /** the numbers of all profiles as gallery/packed_numbers.hpp has them; base64, deflated */
   curves: string;
   /** for each cell all its pictures as gallery/packed_pixels.hpp has them; base64, deflated */
@@ -257,6 +255,8 @@ export interface PackedShown {
 /** A cell of a site in few files. */
 export interface PackedCell {
   id: string;
+  /** markup of its <main> */
+  main: string;
   page: CellPage;
   pictures: PackedShown[];
   /** numbers of its profile's degrees and of each curve, which CellChunk has */
@@ -265,8 +265,6 @@ export interface PackedCell {
 
 /** The texts of a CellChunk. */
 export interface CellTexts {
-  /** tags and texts of the pages, each once */
-  pieces: string[];
   cells: PackedCell[];
 }
 

@@ -85,8 +85,8 @@ class Outside final : public Engine {
   std::string effects_;
   EngineInfo info_;
   std::optional<EngineStatus> status_;
-  /// What keys have of a picture, so that each is hashed once for all cells: its hash, or why it has none. Without a hash
-  /// it is not read later either: the keys would not tell its contents apart.
+  /// A picture's part of the keys: its hash, or why it has none. Each picture is hashed once for all cells. Without a
+  /// hash it is not read later either: the keys would not tell its contents apart.
   struct PictureKey {
     std::string sha256, why_not;
   };

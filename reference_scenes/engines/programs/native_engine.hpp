@@ -12,21 +12,21 @@
 
 namespace lobelia {
 
-/// What is different between them.
+/// The differences between these engines.
 struct NativeEngine {
   EngineInfo info;
   EngineProbe probe;
   std::string_view method;  ///< records::Reference::method
   /// The engine's own highlight with this model, lobe and exponent; none if it has no such.
   std::optional<OwnHighlight> (*own)(const Highlight&);
-  /// What else it cannot show, as a sentence; empty if it can.
+  /// Why it cannot show the scene for other reasons, as a sentence; empty if it can.
   std::string (*why_not)(const Scene&) = nullptr;
 };
 
 // One file each, in the folder of its name.
 extern const NativeEngine kTachyon, kSunflow, kThree, kBabylon, kOpengl;
 
-/// Of an engine that is given points: the cosine is the product of two vectors in float32, of three components each; power
+/// For an engine that is given points: the cosine is the product of two vectors of three components in float32; power
 /// and colour round some more.
 inline constexpr EngineFloor kFloat32PointFloor{.of_peak = 8 * kFloat32Rounding,
                                                 .of_cosine = 4 * kFloat32Rounding};

@@ -87,7 +87,7 @@ std::vector<float> render(const CameraScene& scene) {
   return rgb;
 }
 
-/// Of its headers: the library does not tell.
+/// The version in its headers: the library does not tell.
 std::string version() { return "Tachyon " TACHYON_VERSION_STRING; }
 
 }  // namespace

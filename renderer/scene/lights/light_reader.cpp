@@ -114,7 +114,7 @@ std::shared_ptr<const Image> EnvironmentMaps::read(const std::string& file) {
   auto& known = images_[path];
   if (known) return known;
   InputFile opened(path);
-  // Of the open file: what the path leads to may have changed since.
+  // Check the open file: the path may lead elsewhere by now.
   require_inside(file, opened.real_path());
   auto image = std::make_shared<const Image>(
       read_picture(PictureFile(std::move(opened)), "", kSkyLimit).image);

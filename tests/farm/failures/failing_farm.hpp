@@ -11,8 +11,8 @@
 
 namespace lobelia {
 
-/// What a farm has made, by file: every picture and figure byte for byte; of records what does not tell when, where
-/// and at what cost they were made. Logs only by name.
+/// A farm's results by file: every picture and figure byte for byte; records without the time, place and cost of their
+/// making. Logs only by name.
 using Results = std::map<std::string, std::string>;
 Results results_of(const fs::path& farm_directory);
 

@@ -1,4 +1,4 @@
-// What the viewer shows, as a figure: the picture, its colour bar, a caption, and the pixels' values.
+// The viewer's content as a figure: the picture, its colour bar, a caption, and the pixels' values.
 import { fileName } from '../lib/figure_text';
 import type { FigureSource } from '../lib/figure';
 import type { Bar, PictureParts } from '../lib/figure_svg';

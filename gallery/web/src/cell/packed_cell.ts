@@ -34,8 +34,7 @@ export async function cellOf(chunk: CellChunk, id: string): Promise<OpenedCell |
   const texts = JSON.parse(new TextDecoder().decode(await inflated(chunk.texts))) as CellTexts;
   const place = texts.cells.findIndex((cell) => cell.id === id);
   if (place < 0) return undefined;
-  const { page, pictures: shown, counts } = texts.cells[place]!;
-  const markup = markupOf(new Uint16Array((await inflated(chunk.order)).buffer), texts.pieces, place);
+  const { page, main: markup, pictures: shown, counts } = texts.cells[place]!;
   const packed = new PackedPixels(shown, await inflated(chunk.pixels[place]!));
   const pictures = new Map(shown.map(({ file }, i) => [file, packed.address(i)]));
   if (page.profile) {
@@ -46,17 +45,6 @@ export async function cellOf(chunk: CellChunk, id: string): Promise<OpenedCell |
   for (const { picture } of [...page.engines, ...page.comparisons])
     if (picture) picture.src = picture.small = pictures.get(picture.src) ?? '';
   return { page, markup, pictures };
-}
-
-function markupOf(halves: Uint16Array, pieces: readonly string[], place: number): string {
-  let markup = '';
-  for (let i = 0, page = 0, fresh = 0, count = halves.length / 2; i < count; ++i) {
-    const number = halves[i]! + 0x10000 * halves[i + count]!;
-    if (number === 1) { if (page++ === place) break; continue; }
-    const piece = number === 0 ? pieces[fresh++] : pieces[number - 2];
-    if (page === place) markup += piece;
-  }
-  return markup;
 }
 
 function restoreCurves(profile: ShownProfile, counts: readonly number[], numbers: PackedNumbers): void {

@@ -1,4 +1,4 @@
-// What paints the explorer's sphere: a unit sphere before a camera of 28 degrees, 5 units away, under a directional
+// Paints the explorer's sphere: a unit sphere before a camera of 28 degrees, 5 units away, under a directional
 // light of irradiance 1, as in reference_scenes/scenes. Vectors are the camera's: x right, y up, z towards the eye.
 import type { ModelTable } from '../records';
 

@@ -1,4 +1,4 @@
-// What Find understands: words, and conditions such as n = 16, exponent > 100, exponent = 16..128, ssim < 0.99, max_rel_peak > 1%.
+// Parses Find: words, and conditions such as n = 16, exponent > 100, exponent = 16..128, ssim < 0.99, max_rel_peak > 1%.
 import type { Cells, Values } from './cells';
 
 const kTerm = /("[^"]*"|[^\s<>=!"]+)\s*(>=|<=|!=|=|>|<)\s*("[^"]*"|[^\s<>=!"]+)|\S+/g;

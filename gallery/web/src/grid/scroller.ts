@@ -63,7 +63,7 @@ export class Scroller {
     this.sizer.style.width = `${width}px`;
     this.sizer.replaceChildren();
     this.live = new Live(this.sizer);
-    // What is seen comes first: who types in Find does not wait for rows beyond it.
+    // Visible rows come first, so that typing in Find does not wait for the others.
     this.draw(0);
     setTimeout(() => this.ask());
   }

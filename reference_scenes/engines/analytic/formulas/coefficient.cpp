@@ -81,7 +81,7 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
   // The error is to be small beside the whole, of which a narrow lobe leaves little for the last piece.
   const Big tolerance = kTolerance * sum / (piece * highest_from(last));
   if (tolerance > 1) return normalised(sum);
-  // Of half an angle, a lobe without an end is smooth here.
+  // With half angles, a lobe without an end is smooth here.
   if (model.lobe_of_half_angle && lobe.order == 0 && !lobe.formula)
     return normalised(sum + smooth(last, ends.back()));
   // cos^n with a small n rises steeply from the right angle. The piece starts there, with points crowded at that end.
