@@ -24,7 +24,7 @@ space     = $(subst ,, )
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-compare fuzz chaos lint docs install uninstall package clean
+.PHONY: help gallery screenshots references test test-all test-long mutants sanitize sanitize-short build bench bench-compare fuzz chaos lint docs headers install uninstall package clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -143,6 +143,9 @@ docs: ## writes docs/ as a site to out/docs, with a search; no network is needed
 	$(configure)
 	$(build) --target lobelia
 	@LOBELIA_PROGRAM="build/$(PRESET)/bin/lobelia" scripts/docs out/docs
+
+headers: ## writes the headers that people copy, include/lobelia/highlight.hpp and flip_highlight.hpp
+	@scripts/headers include/lobelia
 
 install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
 	$(setup) build

@@ -1,78 +1,22 @@
-// The limits of crowds of spheres, and of farms of 1e6 cells and 1e8 cells on 1000 nodes: measured as far as this machine
-// allows, simulated beyond.
-// docs/scale.md has the conclusions.
+// The limits of farms of 1e6 and 1e8 cells: planning is measured, the work of 1000 nodes is simulated. docs/scale.md has the
+// conclusions; `make bench` measures crowds of spheres and a farm's own cost.
 #include <fmt/format.h>
-#include <malloc.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <memory>
-#include <numeric>
 #include <queue>
 #include <random>
 
 #include "bench/inputs.hpp"
 #include "core/files.hpp"
-#include "core/group_flush.hpp"
 #include "core/timing.hpp"
 #include "farm/farm.hpp"
-#include "farm/result_cache.hpp"
 #include "farm/slurm/slurm_farm.hpp"
-#include "renderer/accelerator.hpp"
-#include "renderer/render.hpp"
 
 namespace lobelia::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Bytes of memory that this process holds now.
-double resident_bytes() {
-  std::int64_t all = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> all >> resident;
-  return double(resident) * double(::sysconf(_SC_PAGESIZE));
-}
-
-void measure_crowd(CrowdKind kind, const char* title) {
-  constexpr int kSide = 256, kSamples = 16;
-  fmt::print(
-      "\n{}: {} x {}, {} samples, one lamp with shadows, {} threads, median of 5\n"
-      "{:>10} {:>13} {:>9} {:>9} {:>9} {:>16}\n",
-      title, kSide, kSide, kSamples, oneapi::tbb::info::default_concurrency(), "spheres",
-      "bytes of each", "plan s", "build s", "render s", "ns a camera ray");
-  for (const auto& lattice :
-       {std::array{10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}, {200, 200, 100}}) {
-    Scene scene = crowd(kind, lattice, kSide);
-    scene.sampler.sample_count = kSamples;
-    ::malloc_trim(0);  // what was released before would be counted as well
-    const double without = resident_bytes();
-    auto accelerator = std::make_unique<Accelerator>(scene.spheres);
-    const double bytes =
-        sizeof(Sphere) + (resident_bytes() - without) / double(scene.spheres.size());
-    accelerator.reset();
-    std::vector<double> plan, build, trace;
-    double rays = 0;
-    for (int repeat = 0; repeat < 5; ++repeat) {
-      const RenderResult result = render(scene, {});
-      plan.push_back(result.plan_seconds);
-      build.push_back(result.build_seconds);
-      trace.push_back(result.render_seconds - result.build_seconds);
-      rays = double(result.work.camera_rays);
-    }
-    // Below that, what a few pages more or less hold would be counted.
-    constexpr std::size_t kCountable = 100000;
-    const double seconds = summary(trace).median;
-    fmt::print("{:>10} {:>13} {:>9.4f} {:>9.4f} {:>9.4f} {:>16.0f}\n", scene.spheres.size(),
-               scene.spheres.size() >= kCountable ? fmt::format("{:.0f}", bytes) : "",
-               summary(plan).median, summary(build).median, seconds, 1e9 * seconds / rays);
-  }
-}
 
 Grid grid_of(const fs::path& directory, int cells) {
   constexpr int kMaxExponents = 10000;
@@ -95,75 +39,6 @@ void planning(const fs::path& directory) {
     });
     fmt::print("| {} | {} | {:.2f} | {:.1f} |\n", plan.cells, plan.jobs, seconds,
                1e6 * seconds / double(plan.cells));
-  }
-}
-
-ResultKey key_of(std::size_t i) { return result_key({"scale", std::to_string(i)}); }
-
-/// Publishes a result of three small files, as many as a picture has; as a farm does if there is a `flush`.
-void publish(const ResultCache& cache, std::size_t i, GroupFlush* flush) {
-  const auto claim = std::make_shared<std::optional<ByteLocks::Claim>>(cache.try_claim(key_of(i)));
-  const auto draft = std::make_shared<ResultDraft>(cache.draft());
-  const auto later = flush ? flush->later() : std::nullopt;
-  for (const char* name : {"lobelia.exr", "lobelia.json", "lobelia.png"})
-    write_file(draft->file(name), std::string(2000, char('a' + i % 26)));
-  records::Result result;
-  result.job = "render";
-  cache.seal(*draft, key_of(i), result);
-  const auto place = [claim, draft, result, i, &cache] { cache.place(*draft, key_of(i), result); };
-  flush ? flush->add(draft->files(), place) : place();
-}
-
-/// Results per second from `begin` to `end`.
-double published(const ResultCache& cache, std::size_t begin, std::size_t end, bool together) {
-  return double(end - begin) / seconds_of([&] {
-           std::optional<GroupFlush> flush;
-           if (together) flush.emplace(std::vector{cache.directory()}, std::rethrow_exception);
-           oneapi::tbb::parallel_for(
-               begin, end, [&](std::size_t i) { publish(cache, i, flush ? &*flush : nullptr); });
-         });
-}
-
-void caching(const fs::path& directory) {
-  fmt::print(
-      "\nA cache on this machine's disk; a result is three files of 2 kB and its record\n\n");
-  fmt::print(
-      "| results | published per s | each file flushed alone | entries of a shelf, mean and most | list all, ms | look at one, us | "
-      "one that is missing, us | claims per s |\n|---|---|---|---|---|---|---|---|\n");
-  const ResultCache cache(directory / "cache");
-  std::size_t there = 0;
-  for (const std::size_t results : {500u, 2000u, 8000u}) {
-    const std::size_t half = (there + results) / 2;
-    const double alone = published(cache, there, half, false);
-    const double together = published(cache, half, results, true);
-    there = results;
-    std::map<char, std::size_t> shelves;
-    std::size_t listed = 0;
-    const double list = seconds_of([&] {
-      for (const ResultKey& key : cache.list()) {
-        ++shelves[char(key.digest[0])];
-        ++listed;
-      }
-    });
-    if (listed != results) fmt::print("{} results are listed\n", listed);
-    std::size_t most = 0;
-    for (const auto& [shelf, count] : shelves) most = std::max(most, count);
-    std::size_t found = 0;
-    const std::size_t looks = 1000;
-    const double look = seconds_of([&] {
-      for (std::size_t i = 0; i < looks; ++i)
-        found += cache.find(key_of(i * results / looks)) ? 1 : 0;
-    });
-    const double miss = seconds_of([&] {
-      for (std::size_t i = 0; i < looks; ++i) found += cache.has(key_of(results + i)) ? 1 : 0;
-    });
-    if (found != looks) fmt::print("{} of {} results are found\n", found, looks);
-    const double claims = seconds_of([&] {
-      for (std::size_t i = 0; i < looks; ++i) (void)cache.try_claim(key_of(i));
-    });
-    fmt::print("| {} | {:.0f} | {:.0f} | {:.0f}, {} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |\n",
-               results, together, alone, double(results) / double(shelves.size()), most, 1e3 * list,
-               1e6 * look / double(looks), 1e6 * miss / double(looks), double(looks) / claims);
   }
 }
 
@@ -311,13 +186,8 @@ void very_large_simulation() {
 int main() {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   using namespace lobelia;
-  bench::measure_crowd(bench::CrowdKind::kPacked,
-                       "Packed crowd, spheres of 0.4 times their spacing");
-  bench::measure_crowd(bench::CrowdKind::kThin,
-                       "Thin crowd, a ray through it meets half a sphere on average");
   const TemporaryDirectory directory;
   bench::planning(directory.path());
-  bench::caching(directory.path());
   bench::simulation(100000);
   bench::simulation(1000000);
   bench::very_large_simulation();

@@ -119,82 +119,60 @@ Number Formula::evaluate(const Number& s, double n) const {
   using std::exp, std::log, std::sqrt, std::abs, std::sin, std::cos, std::tan, std::asin, std::acos,
       std::atan, std::pow;
   Number value[kMaxFormulaNodes];
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node& node = nodes_[i];
+  const auto value_of = [&](const Node& node) -> Number {
     const Number &a = value[node.left], &b = value[node.right];
     switch (node.operation) {
       case Operation::kNumber:
-        value[i] = Number(node.number);
-        break;
+        return Number(node.number);
       case Operation::kVersine:
-        value[i] = s;
-        break;
+        return s;
       case Operation::kExponent:
-        value[i] = Number(n);
-        break;
+        return Number(n);
       case Operation::kCosine:
-        value[i] = Number(1) - s;
-        break;
+        return Number(1) - s;
       case Operation::kAngle:
-        value[i] = Number(2) * asin(Number(sqrt(Number(s / Number(2)))));
-        break;
+        return Number(2) * asin(Number(sqrt(Number(s / Number(2)))));
       case Operation::kAdd:
-        value[i] = a + b;
-        break;
+        return a + b;
       case Operation::kSubtract:
-        value[i] = a - b;
-        break;
+        return a - b;
       case Operation::kMultiply:
-        value[i] = a * b;
-        break;
+        return a * b;
       case Operation::kDivide:
-        value[i] = a / b;
-        break;
+        return a / b;
       case Operation::kPower:
-        value[i] = pow(a, b);
-        break;
+        return pow(a, b);
       // A NaN stays one: it must not hide behind a comparison.
       case Operation::kMin:
-        value[i] = a != a || a < b ? a : b;
-        break;
+        return a != a || a < b ? a : b;
       case Operation::kMax:
-        value[i] = a != a || a > b ? a : b;
-        break;
+        return a != a || a > b ? a : b;
       case Operation::kNegate:
-        value[i] = -a;
-        break;
+        return -a;
       case Operation::kExp:
-        value[i] = exp(a);
-        break;
+        return exp(a);
       case Operation::kLog:
-        value[i] = log(a);
-        break;
+        return log(a);
       case Operation::kSqrt:
-        value[i] = sqrt(a);
-        break;
+        return sqrt(a);
       case Operation::kAbs:
-        value[i] = abs(a);
-        break;
+        return abs(a);
       case Operation::kSin:
-        value[i] = sin(a);
-        break;
+        return sin(a);
       case Operation::kCos:
-        value[i] = cos(a);
-        break;
+        return cos(a);
       case Operation::kTan:
-        value[i] = tan(a);
-        break;
+        return tan(a);
       case Operation::kAsin:
-        value[i] = asin(a);
-        break;
+        return asin(a);
       case Operation::kAcos:
-        value[i] = acos(a);
-        break;
+        return acos(a);
       case Operation::kAtan:
-        value[i] = atan(a);
-        break;
+        return atan(a);
     }
-  }
+    return value[0];
+  };
+  for (std::size_t i = 0; i < nodes_.size(); ++i) value[i] = value_of(nodes_[i]);
   return value[nodes_.size() - 1];
 }
 

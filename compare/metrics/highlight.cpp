@@ -40,7 +40,7 @@ constexpr MetricOutput kOutputs[] = {
     {"shift.highlight.y", "", Unit::kPlain, Better::kNeither, false, "down, in pixels"}};
 
 struct Sums {
-  double light = 0, squares = 0, x = 0, y = 0;
+  double peak = 0, light = 0, squares = 0, x = 0, y = 0;
 
   double area() const { return squares > 0 ? light * light / squares : 0; }
   double brightness() const { return light > 0 ? squares / light : 0; }
@@ -62,22 +62,16 @@ double median_around(const Image& image, int x, int y) {
   return *middle;
 }
 
-Sums sums_over(const Image& image, std::span<const std::uint8_t> highlight) {
-  const auto width = std::size_t(image.width());
-  const auto for_each_pixel = [&](const auto& visit) {
-    in_parts(highlight.size(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t pixel = begin; pixel < end; ++pixel)
-        if (highlight[pixel] != 0) visit(int(pixel % width), int(pixel / width));
-    });
-  };
-  double peak = 0;
-  for_each_pixel([&](int x, int y) {
-    const double own = mean_of(image.pixel(x, y));
-    if (own > peak) peak = std::max(peak, std::min(own, median_around(image, x, y)));
-  });
+/// for_each_pixel(visit) visits the pixels of the highlight.
+template <class ForEachPixel>
+Sums sums_of(const Image& image, const ForEachPixel& for_each_pixel) {
   Sums sums;
   for_each_pixel([&](int x, int y) {
-    const double light = mean_of(image.pixel(x, y)) - kHighlightShare * peak;
+    const double own = mean_of(image.pixel(x, y));
+    if (own > sums.peak) sums.peak = std::max(sums.peak, std::min(own, median_around(image, x, y)));
+  });
+  for_each_pixel([&](int x, int y) {
+    const double light = mean_of(image.pixel(x, y)) - kHighlightShare * sums.peak;
     if (!(light > 0)) return;
     sums.light += light;
     sums.squares += light * light;
@@ -89,12 +83,12 @@ Sums sums_over(const Image& image, std::span<const std::uint8_t> highlight) {
 
 double excess(double a, double b) { return a == b ? 0 : b > 0 ? a / b - 1 : kInfinity; }
 
-void measure(const MetricInput& input, std::span<double> values) {
-  const Sums a = sums_over(input.a, input.highlight), b = sums_over(input.b, input.highlight);
+/// By kOutputs.
+std::array<double, 6> highlight_figures(const Sums& a, const Sums& b) {
+  std::array<double, 6> values{};
   values[0] = excess(a.light, b.light);
   values[1] = excess(a.brightness(), b.brightness());
   values[2] = excess(std::sqrt(a.area()), std::sqrt(b.area()));
-  values[4] = values[5] = 0;
   if (a.light > 0 && b.light > 0) {
     values[4] = a.x / a.light - b.x / b.light;
     values[5] = a.y / a.light - b.y / b.light;
@@ -102,6 +96,23 @@ void measure(const MetricInput& input, std::span<double> values) {
     values[4] = values[5] = kInfinity;
   }
   values[3] = std::hypot(values[4], values[5]);
+  return values;
+}
+
+Sums sums_over(const Image& image, std::span<const std::uint8_t> highlight) {
+  return sums_of(image, [&](const auto& visit) {
+    const auto width = std::size_t(image.width());
+    in_parts(highlight.size(), 3 * sizeof(float), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t pixel = begin; pixel < end; ++pixel)
+        if (highlight[pixel] != 0) visit(int(pixel % width), int(pixel / width));
+    });
+  });
+}
+
+void measure(const MetricInput& input, std::span<double> values) {
+  std::ranges::copy(
+      highlight_figures(sums_over(input.a, input.highlight), sums_over(input.b, input.highlight)),
+      values.begin());
 }
 
 }  // namespace

@@ -18,19 +18,23 @@ struct CosineLobe {
   static constexpr std::array<int, 0> kOrders{};
 
   explicit CosineLobe(LobeParameters p) : n(p.exponent) {
+    // Not in lobelia/highlight.hpp:
     if (n < 1 || n > 4096 || n != std::floor(n)) return;
     const unsigned whole = unsigned(n);
     if (std::bit_width(whole) + std::popcount(whole) - 2 > kMostFactors) return;
     whole_n = int(whole);
     smallest = smallest_base<float>(whole_n);
+    // In it:
   }
 
   template <class Real>
   Real value(Real s) const {
+    // Not in lobelia/highlight.hpp:
     if constexpr (requires {
                     { power_of_one_minus(s, 1, 0.0) } -> std::same_as<Real>;
                   })
       if (whole_n > 0) return power_of_one_minus(s, whole_n, smallest);
+    // In it:
     return where_less(s, Real(1), exp_or_zero(Real(n) * log_one_minus(s)));
   }
 
@@ -54,12 +58,14 @@ struct CosineLobe {
   Float32Error float32_error() const { return {2e-7, 3, 4}; }
 
   double n;
+  // Not in lobelia/highlight.hpp:
   int whole_n = 0;      ///< n, if few products make the power in float32 registers; else 0
   double smallest = 0;  ///< for it
 
  private:
   /// More are slower than logarithm and exponential.
   static constexpr int kMostFactors = 14;
+  // In it:
 };
 static_assert(Lobe<CosineLobe>);
 

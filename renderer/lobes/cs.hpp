@@ -32,10 +32,7 @@ struct CsLobe {
         slope(n / k),
         support(std::min(1.0, k / n)),
         smallest64(smallest_base<double>(k)),
-        smallest32(smallest_base<float>(k)) {
-    // The integral of u^(k+1) from the lobe's end to its middle, u = 1 - n s / k.
-    mass = n > k ? 1 : -std::expm1((k + 1) * std::log1p(-slope));
-  }
+        smallest32(smallest_base<float>(k)) {}
 
   template <class Real>
   Real value(Real s) const {
@@ -88,7 +85,9 @@ struct CsLobe {
 
   double n;
   int k;
-  double slope, support, mass;
+  double slope, support;
+  /// The integral of u^(k+1) from the lobe's end to its middle, u = 1 - n s / k.
+  double mass = n > k ? 1 : -std::expm1((k + 1) * std::log1p(-slope));
   double smallest64, smallest32;  ///< smaller bases have a subnormal power
 
  private:

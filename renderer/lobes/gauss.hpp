@@ -16,7 +16,7 @@ struct GaussLobe {
                                   "Romanyuk et al., among the lobes compared"};
   static constexpr std::array<int, 0> kOrders{};
 
-  explicit GaussLobe(LobeParameters p) : n(p.exponent), mass(-std::expm1(-n * kQuarterTurn)) {}
+  explicit GaussLobe(LobeParameters p) : n(p.exponent) {}
 
   template <class Real>
   Real value(Real s) const {
@@ -76,7 +76,8 @@ struct GaussLobe {
   Float32Error float32_error() const { return {2e-7, 3, 4}; }
 
   static constexpr double kQuarterTurn = std::numbers::pi * std::numbers::pi / 8;  ///< x^2 / 2
-  double n, mass;
+  double n;
+  double mass = -std::expm1(-n * kQuarterTurn);
 };
 static_assert(Lobe<GaussLobe>);
 

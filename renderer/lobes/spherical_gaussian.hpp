@@ -14,7 +14,7 @@ struct SphericalGaussianLobe {
                                   "Wang et al. 2009, All-frequency rendering, sec. 3"};
   static constexpr std::array<int, 0> kOrders{};
 
-  explicit SphericalGaussianLobe(LobeParameters p) : n(p.exponent), mass(-std::expm1(-n)) {}
+  explicit SphericalGaussianLobe(LobeParameters p) : n(p.exponent) {}
 
   template <class Real>
   Real value(Real s) const {
@@ -38,7 +38,8 @@ struct SphericalGaussianLobe {
   LobeText text() const { return {"    return exp(-n * s);\n", "0.0"}; }
   Float32Error float32_error() const { return {2e-7, 3, 2}; }
 
-  double n, mass;
+  double n;
+  double mass = -std::expm1(-n);
 };
 static_assert(Lobe<SphericalGaussianLobe>);
 

@@ -23,7 +23,7 @@ namespace lobelia::HWY_NAMESPACE {
 template <class Real>
 Real smith_factor(double alpha_squared, Real n_dot_l, Real n_dot_v) {
   using std::sqrt;
-  const Real least(alpha_squared), rest(1 - alpha_squared);
+  const Real least = Real(alpha_squared), rest = Real(1 - alpha_squared);
   const Real root_l = sqrt(multiply_add(rest * n_dot_l, n_dot_l, least));
   const Real root_v = sqrt(multiply_add(rest * n_dot_v, n_dot_v, least));
   return Real(2.0) / multiply_add(n_dot_l, root_v, n_dot_v * root_l);

@@ -1,5 +1,6 @@
 // Fragment shaders on OpenGL without a window, by EGL: on the first hardware device that has OpenGL 3.3, or else on
 // Mesa's software renderer.
+#define GL_GLEXT_PROTOTYPES
 #define EGL_EGLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -13,48 +14,6 @@
 
 namespace lobelia::shader_runner {
 namespace {
-
-// By eglGetProcAddress, so that the program is linked with EGL alone.
-#define LOBELIA_GL_FUNCTIONS(gl)                                                                   \
-  gl(PFNGLCREATESHADERPROC, glCreateShader) gl(PFNGLSHADERSOURCEPROC, glShaderSource) gl(          \
-      PFNGLCOMPILESHADERPROC, glCompileShader) gl(PFNGLGETSHADERIVPROC, glGetShaderiv)             \
-      gl(PFNGLGETSHADERINFOLOGPROC, glGetShaderInfoLog) gl(                                        \
-          PFNGLCREATEPROGRAMPROC, glCreateProgram) gl(PFNGLATTACHSHADERPROC, glAttachShader)       \
-          gl(PFNGLLINKPROGRAMPROC, glLinkProgram) gl(PFNGLGETPROGRAMIVPROC, glGetProgramiv) gl(    \
-              PFNGLGETPROGRAMINFOLOGPROC, glGetProgramInfoLog) gl(PFNGLUSEPROGRAMPROC,             \
-                                                                  glUseProgram)                    \
-              gl(PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation) gl(                            \
-                  PFNGLUNIFORM1IPROC, glUniform1i) gl(PFNGLGENFRAMEBUFFERSPROC, glGenFramebuffers) \
-                  gl(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)                                  \
-                      gl(PFNGLFRAMEBUFFERTEXTURE2DPROC, glFramebufferTexture2D)                    \
-                          gl(PFNGLCHECKFRAMEBUFFERSTATUSPROC, glCheckFramebufferStatus)            \
-                              gl(PFNGLGENVERTEXARRAYSPROC, glGenVertexArrays)                      \
-                                  gl(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                  \
-                                      gl(PFNGLCLEARBUFFERFVPROC, glClearBufferfv) gl(              \
-                                          decltype(&::glGetString), glGetString)                   \
-                                          gl(decltype(&::glGenTextures), glGenTextures) gl(        \
-                                              decltype(&::glBindTexture), glBindTexture)           \
-                                              gl(decltype(&::glTexImage2D), glTexImage2D) gl(      \
-                                                  decltype(&::glTexParameteri), glTexParameteri)   \
-                                                  gl(decltype(&::glViewport), glViewport) gl(      \
-                                                      decltype(&::glDrawArrays), glDrawArrays)     \
-                                                      gl(decltype(&::glReadPixels), glReadPixels)  \
-                                                          gl(decltype(&::glFinish), glFinish) gl(  \
-                                                              decltype(&::glGetError), glGetError)
-
-struct Gl {
-#define LOBELIA_DECLARE(type, name) type name = nullptr;
-  LOBELIA_GL_FUNCTIONS(LOBELIA_DECLARE)
-#undef LOBELIA_DECLARE
-
-  void load() {
-#define LOBELIA_LOAD(type, name)                             \
-  name = reinterpret_cast<type>(::eglGetProcAddress(#name)); \
-  if (!name) throw Failure(kRunnerNoDevice, "OpenGL has no " #name);
-    LOBELIA_GL_FUNCTIONS(LOBELIA_LOAD)
-#undef LOBELIA_LOAD
-  }
-};
 
 bool has_word(const char* words, const char* word) {
   return words && std::strstr(words, word) != nullptr;
@@ -106,20 +65,19 @@ class EglDriver : public Driver {
   EglDriver(const Work& work, std::span<const float> points)
       : width_(GLsizei(kRunnerWidth)), height_(rows(work.invocations())) {
     make_any_current();
-    gl_.load();
     make_texture(std::vector<float>(points.begin(), points.end()), rows(work.points * work.texels));
     make_target();
     GLuint vertices = 0;
-    gl_.glGenVertexArrays(1, &vertices);
-    gl_.glBindVertexArray(vertices);
-    gl_.glViewport(0, 0, width_, height_);
+    glGenVertexArrays(1, &vertices);
+    glBindVertexArray(vertices);
+    glViewport(0, 0, width_, height_);
   }
 
   std::string device() const override { return text(GL_RENDERER); }
   std::string version() const override { return text(GL_VERSION); }
 
   void add(const std::string& program) override {
-    const GLuint made = gl_.glCreateProgram();
+    const GLuint made = glCreateProgram();
     // Both need the same version, given in the first line: GLSL ES and GLSL cannot be linked.
     attach(
         made, GL_VERTEX_SHADER,
@@ -128,31 +86,31 @@ class EglDriver : public Driver {
             "{ gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, "
             "1.0); }\n");
     attach(made, GL_FRAGMENT_SHADER, program);
-    gl_.glLinkProgram(made);
+    glLinkProgram(made);
     GLint linked = 0;
-    gl_.glGetProgramiv(made, GL_LINK_STATUS, &linked);
+    glGetProgramiv(made, GL_LINK_STATUS, &linked);
     if (!linked) {
       std::array<char, 4096> log{};
-      gl_.glGetProgramInfoLog(made, GLsizei(log.size()), nullptr, log.data());
+      glGetProgramInfoLog(made, GLsizei(log.size()), nullptr, log.data());
       throw Failure(kRunnerRefusedProgram, log.data());
     }
     programs_.push_back(made);
   }
 
   void run(std::size_t k) override {
-    gl_.glUseProgram(programs_.at(k));
-    gl_.glUniform1i(gl_.glGetUniformLocation(programs_[k], "lobelia_points"), 0);
+    glUseProgram(programs_.at(k));
+    glUniform1i(glGetUniformLocation(programs_[k], "lobelia_points"), 0);
     const GLfloat nothing[] = {0, 0, 0, 0};
-    gl_.glClearBufferfv(GL_COLOR, 0, nothing);
-    gl_.glDrawArrays(GL_TRIANGLES, 0, 3);
-    gl_.glFinish();
-    if (const GLenum error = gl_.glGetError(); error != GL_NO_ERROR)
+    glClearBufferfv(GL_COLOR, 0, nothing);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glFinish();
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
       throw Failure(kRunnerBroken, "OpenGL has error " + std::to_string(error));
   }
 
   std::vector<float> results() override {
     std::vector<float> values(std::size_t(width_) * std::size_t(height_) * 4);
-    gl_.glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, values.data());
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, values.data());
     return values;
   }
 
@@ -161,18 +119,18 @@ class EglDriver : public Driver {
     return GLsizei((texels + kRunnerWidth - 1) / kRunnerWidth);
   }
   std::string text(GLenum name) const {
-    const auto* words = reinterpret_cast<const char*>(gl_.glGetString(name));
+    const auto* words = reinterpret_cast<const char*>(glGetString(name));
     return words ? words : "unknown";
   }
 
   GLuint texture(GLsizei height, const float* texels) {
     GLuint made = 0;
-    gl_.glGenTextures(1, &made);
-    gl_.glBindTexture(GL_TEXTURE_2D, made);
-    gl_.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl_.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width_, height, 0, GL_RGBA, GL_FLOAT, texels);
-    if (gl_.glGetError() != GL_NO_ERROR)
+    glGenTextures(1, &made);
+    glBindTexture(GL_TEXTURE_2D, made);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width_, height, 0, GL_RGBA, GL_FLOAT, texels);
+    if (glGetError() != GL_NO_ERROR)
       throw Failure(kRunnerNoDevice, "OpenGL has no memory for the points");
     return made;
   }
@@ -180,12 +138,12 @@ class EglDriver : public Driver {
   void make_target() {
     const GLuint target = texture(height_, nullptr);
     GLuint frame = 0;
-    gl_.glGenFramebuffers(1, &frame);
-    gl_.glBindFramebuffer(GL_FRAMEBUFFER, frame);
-    gl_.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
-    if (gl_.glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    glGenFramebuffers(1, &frame);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       throw Failure(kRunnerNoDevice, "OpenGL cannot draw into float pictures");
-    gl_.glBindTexture(GL_TEXTURE_2D, points_);
+    glBindTexture(GL_TEXTURE_2D, points_);
   }
 
   void make_texture(std::vector<float> points, GLsizei height) {
@@ -194,21 +152,20 @@ class EglDriver : public Driver {
   }
 
   void attach(GLuint program, GLenum stage, const std::string& source) {
-    const GLuint shader = gl_.glCreateShader(stage);
+    const GLuint shader = glCreateShader(stage);
     const char* const text = source.c_str();
-    gl_.glShaderSource(shader, 1, &text, nullptr);
-    gl_.glCompileShader(shader);
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
     GLint compiled = 0;
-    gl_.glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (!compiled) {
       std::array<char, 4096> log{};
-      gl_.glGetShaderInfoLog(shader, GLsizei(log.size()), nullptr, log.data());
+      glGetShaderInfoLog(shader, GLsizei(log.size()), nullptr, log.data());
       throw Failure(kRunnerRefusedProgram, log.data());
     }
-    gl_.glAttachShader(program, shader);
+    glAttachShader(program, shader);
   }
 
-  Gl gl_;
   GLsizei width_, height_;
   GLuint points_ = 0;
   std::vector<GLuint> programs_;

@@ -55,7 +55,7 @@ void hold(const Scene& scene, const std::vector<std::string>& accuracies) {
   }
 }
 
-TEST(Accuracy, IsReachedByTheCanonicalScenesAndCostsMoreTheMoreIsAsked) {
+TEST(Accuracy, IsReachedByTheCanonicalScenes) {
   for (const char* name : kScenes)
     for (const double exponent : kExponents) {
       SCOPED_TRACE(::testing::Message() << name << ", n = " << exponent);
@@ -65,7 +65,7 @@ TEST(Accuracy, IsReachedByTheCanonicalScenesAndCostsMoreTheMoreIsAsked) {
     }
 }
 
-TEST(Accuracy, IsReachedWhateverModelAndLobeTheSceneHas) {
+TEST(Accuracy, IsReachedForEveryModelWithEveryLobe) {
   for (const ModelId model : all_models())
     for (const char* lobe : {"schlick", "cs16", "gauss", "cs10"}) {
       SCOPED_TRACE(::testing::Message() << info(model).name << ", " << lobe);
@@ -75,7 +75,7 @@ TEST(Accuracy, IsReachedWhateverModelAndLobeTheSceneHas) {
     }
 }
 
-TEST(Accuracy, IsReachedByAPictureOfWhichOnlySomePixelsAreLookedAt) {
+TEST(Accuracy, IsReachedByAPartlyMeasuredPicture) {
   Scene s = scene("two_spheres", 400);
   s.film.width = 517;
   hold(s, {"1e-1", "1e-2", "1e-3"});
@@ -105,7 +105,7 @@ TEST(Accuracy, IsReachedInNoiseToo) {
     }
 }
 
-TEST(Accuracy, TakesMoreSamplesTheMoreIsAskedAndSaysWhatIsPossible) {
+TEST(Accuracy, TakesMoreSamplesForASmallerError) {
   const Scene s = scene("effects/area_light", 32);
   const Choice loose = choose(s, parse_accuracy("0.1"), 64),
                tight = choose(s, parse_accuracy("0.01"), 64);
@@ -119,7 +119,7 @@ TEST(Accuracy, TakesMoreSamplesTheMoreIsAskedAndSaysWhatIsPossible) {
   EXPECT_NO_THROW(few(error.substr(at + 11).c_str())) << "the best possible is possible";
 }
 
-TEST(Accuracy, KeepsTheScenesOwnLobeWhereItIsTheCheapestThatWillDo) {
+TEST(Accuracy, KeepsTheScenesLobeIfItIsTheCheapest) {
   const Scene s = with_highlight(scene("head_on"), 250.5, "cosine");
   const auto cosine = *find_lobe("cosine");
   EXPECT_EQ(choose(s, parse_accuracy("1e-6")).lobe, cosine);
@@ -175,7 +175,7 @@ TEST(Accuracy, TakesTheScenesOwnLobeInFloat64WithoutABound) {
   EXPECT_TRUE(measure_reached(s, choice, picture(choice)).held(choice));
 }
 
-TEST(Accuracy, HoldsForABlackPictureAndSaysThatNothingWasMeasured) {
+TEST(Accuracy, HoldsForABlackPicture) {
   Scene dark = scene("head_on");
   std::get<DirectionalLight>(dark.lights[0]).irradiance = {};
   Scene dark_noise = dark;

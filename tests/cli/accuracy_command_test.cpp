@@ -13,7 +13,7 @@ ProcessResult render(const TemporaryDirectory& directory, const std::string& sce
   return run_lobelia(arguments, directory.path());
 }
 
-TEST(RenderAccuracy, SaysWhatItChoseAndWhyAndWhatWasReached) {
+TEST(RenderAccuracy, ExplainsItsChoiceWithTheErrorReached) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "oblique_45.xml", {"--accuracy", "1e-1"});
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
@@ -31,7 +31,7 @@ TEST(RenderAccuracy, SaysWhatItChoseAndWhyAndWhatWasReached) {
               HasSubstr(accuracy["chose"]["precision"].get<std::string>()));
 }
 
-TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
+TEST(RenderAccuracy, CanSkipTheMeasurementOfTheErrorReached) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "oblique_45.xml",
                              {"--accuracy", "de2000=1", "--accuracy-check", "none", "-q"});
@@ -42,7 +42,7 @@ TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
   EXPECT_FALSE(record["accuracy"].contains("reached"));
 }
 
-TEST(RenderAccuracy, FailsOutOfReachNamesTheBestAndLeavesNothing) {
+TEST(RenderAccuracy, FailsIfTheErrorIsOutOfReach) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "effects/area_light.xml",
                              {"--accuracy", "1e-6", "--max-samples", "4", "-q"});
@@ -52,7 +52,7 @@ TEST(RenderAccuracy, FailsOutOfReachNamesTheBestAndLeavesNothing) {
   EXPECT_EQ(files_in(directory.path()), 0u);
 }
 
-TEST(RenderAccuracy, RefusesNonsenseAndWhatItChoosesItself) {
+TEST(RenderAccuracy, RefusesOptionsChosenByItself) {
   const TemporaryDirectory directory;
   for (const char* text : {"0", "-1", "nan", "ten", "de2000=", "flip=1"}) {
     const auto result = render(directory, "head_on.xml", {"--accuracy", text});
@@ -75,7 +75,7 @@ TEST(CostCommand, MeasuresPictures) {
   EXPECT_FALSE(record.at("tables").at(0).at("ways").empty());
 }
 
-TEST(CostCommand, SaysWhatToUseForALevelThatIsGone) {
+TEST(CostCommand, NamesTheReplacementOfARemovedLevel) {
   const TemporaryDirectory directory;
   for (const char* level : {"fixed-point", "engine"})
     expect_one_line(run_lobelia({"cost", "--level", level}, directory.path()), 2, "; use lobelia ");

@@ -48,7 +48,7 @@ TEST_F(BenchTools, LeaveARecordAloneThatIsNone) {
   EXPECT_EQ(read_file(directory_.path() / "notes.txt", 100), "mine");
 }
 
-TEST_F(BenchTools, FindAProgramThatBecameSlowerAndSayWhichCommand) {
+TEST_F(BenchTools, NameTheCommandWithASlowdown) {
   const auto slow = directory_.path() / "slow";
   write_file(slow, fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && sleep 1\nexec {} \"$@\"\n",
                                shell_quote(LOBELIA_PROGRAM)));

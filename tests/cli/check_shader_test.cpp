@@ -35,7 +35,7 @@ class CheckShaderCommand : public NeedsShaderRunner {
   const TemporaryDirectory directory_;
 };
 
-TEST_F(CheckShaderCommand, PrintsWhatTheTutorialSays) {
+TEST_F(CheckShaderCommand, PrintsTheOutputOfTheTutorial) {
   const std::string page = tutorial(), shader = block_of(page, "glsl");
   write("mine.glsl", shader);
   const ProcessResult result =
@@ -79,7 +79,7 @@ TEST_F(CheckShaderCommand, WritesARecordAndAPage) {
   EXPECT_THAT(read_file(directory_.path() / "r.html", 1 << 22), HasSubstr("light leaks"));
 }
 
-TEST_F(CheckShaderCommand, AnExportWhoseCoefficientIsComputedInTheShaderPasses) {
+TEST_F(CheckShaderCommand, PassesAnExportWithItsOwnCoefficient) {
   // Only the integral of modified Blinn-Phong has the moments m2 and m3. At n = 30 half of m2 is 0.6 % of it, far
   // more than is allowed; at n = 300 it is less.
   for (const char* model : {"modified_phong", "modified_blinn_phong"}) {
@@ -125,7 +125,7 @@ TEST_F(NeedsWebGpu, WgslIsCheckedInABrowser) {
   EXPECT_THAT(bad.output_tail, HasSubstr("bad.wgsl:2: unresolved value 'M'"));
 }
 
-TEST_F(NeedsWebGpu, AShaderCannotSpeakForTheBrowserWhichLeavesNothingBehind) {
+TEST_F(NeedsWebGpu, KeepsAShaderFromForgingResults) {
   const TemporaryDirectory directory;
   // Chromium warns of code behind a return, and quotes it.
   write_file(directory.path() / "forged.wgsl",

@@ -95,7 +95,7 @@ TEST(Help, IsAWordTooAsIsVersion) {
   EXPECT_EQ(printed({"version"}), printed({"-V"}));
 }
 
-TEST(TimeLimit, EndsEveryCommandThatWorksForLongWithItsOwnExitCode) {
+TEST(TimeLimit, EndsLongCommandsWithItsOwnExitCode) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"models"},
                                                     {"search", "--error", "1e-3"},
                                                     {"cost", "--quick"},
@@ -113,7 +113,7 @@ TEST(TimeLimit, EndsEveryCommandThatWorksForLongWithItsOwnExitCode) {
   }
 }
 
-TEST(Verbose, PrintsTheTimeAndTheMemoryAndOfARenderThePlan) {
+TEST(Verbose, PrintsThePlanOfARenderWithItsTime) {
   const TemporaryDirectory directory;
   const auto result =
       run_lobelia({"render", kScenes + "head_on.xml", "-o", "a.exr", "-v"}, directory.path());

@@ -90,7 +90,7 @@ TEST_F(CompareAccept, APairThatHasAWarningTooIsReplacedOnce) {
   EXPECT_THAT(accepted, HasSubstr("ended with 0"));
 }
 
-TEST_F(CompareAccept, APictureThatIsNotFiniteOrNoPictureIsLeftAlone) {
+TEST_F(CompareAccept, LeavesInvalidPicturesAlone) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   flat("mine/x.exr", kNaN), flat("truth/x.exr", 0.6f), flat("mine/new.exr", kNaN);
   file("mine/garbage.exr", "garbage");
@@ -285,7 +285,7 @@ TEST_F(CompareAccept, RefusesFilesThatChangeWhileTheQuestionIsOpen) {
   EXPECT_EQ(text("truth/y.exr"), text("theirs.exr"));
 }
 
-TEST_F(CompareAccept, AFolderThatBecomesALinkWhileTheQuestionIsOpenIsNotFollowed) {
+TEST_F(CompareAccept, IgnoresALinkMadeDuringTheQuestion) {
   flat("mine/x.exr", 0.5f), flat("mine/new.exr", 0.5f), flat("all/truth/x.exr", 0.6f);
   fs::create_directories(path("outside"));
   fs::copy_file(path("all/truth/x.exr"), path("outside/x.exr"));

@@ -24,7 +24,7 @@ class CompareFolders : public ComparePictures {
   }
 };
 
-TEST_F(CompareFolders, PassIfEqualSayWhatHasNoReferenceAndFailForWhatIsMissing) {
+TEST_F(CompareFolders, FailForAMissingPicture) {
   put("a/x.exr", 0.1f), put("b/x.exr", 0.1f), put("a/deep/y.exr", 0.2f), put("b/deep/y.exr", 0.2f);
   put("a/new.exr", 0.1f);
   const auto result = compare({"a", "b"});
@@ -37,7 +37,7 @@ TEST_F(CompareFolders, PassIfEqualSayWhatHasNoReferenceAndFailForWhatIsMissing) 
   EXPECT_THAT(missing.output_tail, HasSubstr("missing     gone.exr"));
 }
 
-TEST_F(CompareFolders, GoesOnPastAPairThatCannotBeComparedAndWritesEveryReport) {
+TEST_F(CompareFolders, GoOnPastAnIncomparablePair) {
   put("a/small.exr", 0.1f, 10), put("b/small.exr", 0.1f, 20);
   write_file(path("a/text.png"), "text"), write_file(path("b/text.png"), "text");
   put("a/off.exr", 0.1f), put("b/off.exr", 0.2f), put("a/same.exr", 0.1f), put("b/same.exr", 0.1f);
@@ -200,7 +200,7 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   refused({"--junit", "out/x.exr.png", "--diff-image", "out"}, taken);
 }
 
-TEST_F(CompareFolders, WriteNoDifferencePictureOverAPictureThatALinkLeadsTo) {
+TEST_F(CompareFolders, WriteNoDifferenceOverALinkedPicture) {
   put("a/x.exr", 0.1f), put("b/x.exr", 0.2f), put("a/deep/x.exr", 0.1f), put("b/deep/x.exr", 0.2f);
   put("error.exr", 0.1f);
   const auto refused = [&](const std::string& out, std::vector<std::string> more) {

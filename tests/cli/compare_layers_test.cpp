@@ -151,14 +151,14 @@ TEST_F(ComparePictures, ALayersAlphaThatOneSideAloneHasDiffers) {
     EXPECT_EQ(record({a, b, "--all-layers"}, 0)["notCompared"]["layers"], Record::array());
 }
 
-TEST_F(ComparePictures, APictureThatOnlyTheReferenceHasFailsAlsoWithoutItsAlpha) {
+TEST_F(ComparePictures, FailsForAMissingLayerWithoutItsAlpha) {
   exr("less.exr", 32, 32, {channel("Z", 1), channel("Q", 1)});
   flat("more.exr", 1, {channel("Z", 1), channel("Q", 1)});
   const Record made = record({"less.exr", "more.exr", "--all-layers", "--ignore-alpha"}, 1);
   EXPECT_EQ(made["layersInOne"]["b"], Record({""}));
 }
 
-TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsNamedWithout) {
+TEST_F(ComparePictures, FailsForAMissingLayerWithAllLayers) {
   flat("less.exr", 1);
   flat("more.exr", 1, {channel("Z", 1)});
   EXPECT_EQ(record({"less.exr", "more.exr", "--all-layers"}, 1)["verdict"], "differs");

@@ -90,7 +90,7 @@ TEST_F(CompareMaps, TheHistogramHasALineForEachBucketOrIsAPlot) {
     EXPECT_EQ(compare(bad).exit_code, 2) << bad.back();
 }
 
-TEST_F(CompareMaps, ExposuresMayHaveOneFreeEndAndTheCountFollows) {
+TEST_F(CompareMaps, TakeExposuresWithOneFreeEnd) {
   const auto exposures = [&](const std::string& range, std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"A/far.exr", "B/far.exr", "--exposures", range});
     return record(more, 1)["viewing"]["hdrExposures"];

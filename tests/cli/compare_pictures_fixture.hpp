@@ -36,7 +36,6 @@ class ComparePictures : public ::testing::Test {
     arguments.insert(arguments.begin(), "compare");
     return run_lobelia(arguments, directory_.path());
   }
-  /// Exit code and record.
   Record record(std::vector<std::string> arguments, int exit_code) {
     arguments.insert(arguments.end(), {"--json", "record.json"});
     const ProcessResult result = compare(arguments);

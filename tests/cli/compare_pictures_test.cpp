@@ -16,7 +16,7 @@ using namespace fixtures;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-TEST_F(ComparePictures, RefusesWhatIsNoPictureInOneLine) {
+TEST_F(ComparePictures, RefusesFilesWithoutAPictureInOneLine) {
   const std::string good = good_exr();
   const auto expect_refused = [&](const std::string& name, const std::string& why) {
     for (const auto& [a, b] : {std::pair(name, std::string("good.exr")), {"good.exr", name}}) {
@@ -51,7 +51,7 @@ TEST_F(ComparePictures, NeverPassesANaN) {
   }
 }
 
-TEST_F(ComparePictures, EqualInfinitiesPassWhereAllowedAndTheFirstBadValueIsNamed) {
+TEST_F(ComparePictures, PassesEqualInfinitiesWhereAllowed) {
   std::vector<float> values(32 * 32, 0.5f);
   values[32 * 7 + 5] = std::numeric_limits<float>::infinity();
   const auto picture = [&](const std::string& name, const std::vector<float>& green,
@@ -119,7 +119,7 @@ TEST_F(ComparePictures, HaveTheBestValueOfEveryMetricWhereBothAreBlack) {
   EXPECT_FALSE(made.contains("notMeasured"));
 }
 
-TEST_F(ComparePictures, BlackPicturesAreMeasuredWithoutHdrFlipAndSayWhy) {
+TEST_F(ComparePictures, MeasuresBlackPicturesWithoutHdrFlip) {
   std::vector<float> black(32 * 32, 0.0f);
   exr("black.exr", 32, 32, {{"Y", black}});
   black[40] = -0.01f;

@@ -52,7 +52,7 @@ TEST_F(CompareProject, GivesWayToTheCommandLine) {
   EXPECT_EQ(compare({"mine", "mine", "--project", "lobelia.toml"}).exit_code, 0);
 }
 
-TEST_F(CompareProject, HasRulesOfWhichTheLastThatFitsCountsMost) {
+TEST_F(CompareProject, AppliesTheLastMatchingRule) {
   for (const char* name : {"glossy/a.exr", "glossy/b.exr", "matt.exr"})
     flat(std::string("mine/") + name, 0.55f), flat(std::string("truth/") + name, 0.5f);
   project(std::string(kTwoFolders) + "fail = [\"max_abs=0.01\"]\ndefaultLimits = false\n" +
@@ -206,7 +206,7 @@ TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
   }
 }
 
-TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {
+TEST_F(CompareProject, EscapesItsTextsInMarkdown) {
   flat("mine/a|b,c%<i>.exr", 0.5f), flat("truth/a|b,c%<i>.exr", 0.6f);
   flat("mine/fine.exr", 0.5f), flat("truth/fine.exr", 0.5f);
   project(kTwoFolders);

@@ -21,7 +21,7 @@ class HowPicturesAreRead : public ComparePictures {
   }
 };
 
-TEST_F(HowPicturesAreRead, IsSaidOfCurvesAndGainMapsInTheTableTheRecordAndTheReport) {
+TEST_F(HowPicturesAreRead, IsReportedForCurvesOrGainMaps) {
   file("pq.png", png_file({.width = 8,
                            .height = 8,
                            .bits = 16,
@@ -58,7 +58,7 @@ TEST_F(HowPicturesAreRead, IsSaidOfLayersAndTheirNoise) {
                     HasSubstr("<dt>Noise</dt>\n<dd>layer spec.StandardError</dd>")));
 }
 
-TEST_F(HowPicturesAreRead, IsTheLayerThatEachSetCallsSoInAReportOfFoldersToo) {
+TEST_F(HowPicturesAreRead, IsByTheLayerNamesOfEachSet) {
   for (const char* folder : {"a", "b"}) std::filesystem::create_directory(path(folder));
   flat("a/only.exr", 1, {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2)});
   flat("b/other.exr", 1, {channel("gloss.R", 3), channel("gloss.G", 3), channel("gloss.B", 3)});

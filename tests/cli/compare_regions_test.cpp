@@ -41,7 +41,7 @@ TEST_F(CompareRegions, AMaskIsARectangleAPolygonAPictureOrAllOfThem) {
               HasSubstr("a limit on 'rmse.mask' needs a mask (--mask or --scene)"));
 }
 
-TEST_F(CompareRegions, AMaskBesideASceneHasOnlyThePixelsThatShowASurface) {
+TEST_F(CompareRegions, LimitAMaskToSurfaces) {
   const std::string scene = kScenes + "head_on.xml";
   ASSERT_EQ(run_lobelia({"render", scene, "-o", "ball.exr"}, directory_.path()).exit_code, 0);
   const auto pixels = [&](std::vector<std::string> mask) {

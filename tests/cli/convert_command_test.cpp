@@ -15,7 +15,6 @@ class ConvertCommand : public testing::Test {
   ProcessResult run(const std::string& arguments) const {
     return run_shell("\"$LOBELIA\" convert " + arguments, directory_.path());
   }
-  /// The commands' output on stdout.
   std::string printed(const std::string& commands) const {
     const auto result = run_shell(
         "lobelia() { \"$LOBELIA\" \"$@\"; }\n(\n" + commands + ") > printed", directory_.path());
@@ -25,7 +24,7 @@ class ConvertCommand : public testing::Test {
   const TemporaryDirectory directory_;
 };
 
-TEST_F(ConvertCommand, PrintsWhatThePageShows) {
+TEST_F(ConvertCommand, PrintsTheOutputOnThePage) {
   const std::string text = page();
   static const std::regex example("```sh\n([^`]*)```\n\n```text\n([^`]*)```\n");
   int examples = 0;
@@ -76,7 +75,7 @@ TEST_F(ConvertCommand, ARoughnessIsTheRootOfAlpha) {
   EXPECT_NE(best("--roughness 0.5"), best("--alpha 0.5"));
 }
 
-TEST_F(ConvertCommand, RefusesWhatIsWrongInOneLine) {
+TEST_F(ConvertCommand, RefusesWrongValuesInOneLine) {
   constexpr std::pair<const char*, const char*> kMistakes[] = {
       {"--exponent 32", "--to is required"},
       {"--exponent 32 --alpha 0.1 --to ggx", "only one of --exponent"},

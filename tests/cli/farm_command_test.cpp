@@ -5,7 +5,7 @@
 namespace lobelia {
 namespace {
 
-TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
+TEST(FarmCommand, ReportsHowEnginesAreContained) {
   const TemporaryDirectory directory;
   // The caller may have given us a namespace without a /proc of its own.
   const auto here =
@@ -19,7 +19,7 @@ TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
   EXPECT_THAT(without.output_tail, HasSubstr("no PID namespace: a subreaper ends them"));
 }
 
-TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
+TEST(FarmCommand, LeavesNoEngineBehindAfterCtrlC) {
   const TemporaryDirectory directory;
   // An engine that would take a minute; known in the list of processes by its odd time.
   write_file(directory.path() / "slow-povray",
@@ -49,7 +49,7 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));
 }
 
-TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
+TEST(FarmCommand, RepairsFilesReportedByItsGallery) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());
   const std::vector<std::string> farm{"farm", "grid.xml", "-o", "out", "-q", "--gallery", "site"},
@@ -82,7 +82,7 @@ TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   expect_found("changed", "cell.json is not the record that the farm wrote");
 }
 
-TEST(FarmCommand, GivesNoisyCellsTheVerdictsThatItsGalleryFindsAgain) {
+TEST(FarmCommand, GivesNoisyCellsTheVerdictsOfItsGallery) {
   const TemporaryDirectory directory;
   std::filesystem::create_symlink(kScenes + "effects", directory.path() / "effects");
   write_file(directory.path() / "grid.xml",
@@ -95,7 +95,7 @@ TEST(FarmCommand, GivesNoisyCellsTheVerdictsThatItsGalleryFindsAgain) {
   EXPECT_EQ(published.exit_code, 0) << published.output_tail;
 }
 
-TEST(FarmCommand, SaysAtOnceThatItsGalleryCannotBeWritten) {
+TEST(FarmCommand, FailsUpFrontIfItsGalleryCannotBeWritten) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());
   write_file(directory.path() / "site", std::string_view("a file"));

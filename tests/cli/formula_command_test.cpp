@@ -60,7 +60,7 @@ TEST_F(TryALobe, VariesInAGrid) {
   EXPECT_THAT(result.output_tail, HasSubstr("3 cells: 0 failed, 0 differ"));
 }
 
-TEST_F(TryALobe, SaysInOneLineWhatIsWrong) {
+TEST_F(TryALobe, LocatesAMistakeInOneLine) {
   const std::pair<const char*, const char*> cases[] = {
       {"--formula '1 - (s'", "--formula, column 7: the formula ends before a ')'"},
       {"--formula '1 - m'", "--formula, column 5: unknown name 'm'"},

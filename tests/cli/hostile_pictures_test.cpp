@@ -120,7 +120,7 @@ class Corpus {
   std::vector<Sample> pictures_;
 };
 
-TEST(HostilePictures, NeverEndAComparisonOfFoldersNorDifferFromThemselves) {
+TEST(HostilePictures, NeverEndAComparisonOfFolders) {
   const TemporaryDirectory directory;
   const Corpus corpus(18);
   for (const char* folder : {"a", "b"}) {

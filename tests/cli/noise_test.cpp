@@ -9,7 +9,6 @@
 namespace lobelia {
 namespace {
 
-/// Renders the scene with an area light in `directory`.
 void render_area_light(const TemporaryDirectory& directory, const std::string& output,
                        std::vector<std::string> more) {
   std::vector<std::string> arguments{
@@ -53,7 +52,7 @@ TEST(CompareWithNoise, ExitsWith0ForSame1ForDifferentAnd6ForUndecided) {
   EXPECT_EQ(compare({"--b-replicate", "missing.exr"}).exit_code, 3);
 }
 
-TEST(RenderCommand, WritesTheErrorOfItsPictureByWhichAnotherSeedIsTheSame) {
+TEST(RenderCommand, WritesAnErrorCoveringAnotherSeed) {
   const TemporaryDirectory directory;
   render_area_light(directory, "plain.exr", {"--samples", "64"});
   render_area_light(directory, "a.exr", {"--samples", "64", "--standard-error", "error.exr"});
@@ -162,7 +161,7 @@ TEST_F(CompareWithVariances, TakeThemOfOneSampleOrOfTheMean) {
          ExitCode::kDiffers);
 }
 
-TEST_F(CompareWithVariances, FindThemBesideThePicturesOfAFolderAndCompareThemNot) {
+TEST_F(CompareWithVariances, FindVariancesBesideTheirPictures) {
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--b-variance", "*_var.exr", "--b-samples", "100", "--a-variance",
                                  "*_var.exr", "--a-samples", "100"},
@@ -183,7 +182,7 @@ TEST_F(CompareWithVariances, FindThemBesideThePicturesOfAFolderAndCompareThemNot
          ExitCode::kSuccess);
 }
 
-TEST_F(CompareWithVariances, RefuseWhatIsNoneOrNotComplete) {
+TEST_F(CompareWithVariances, RefuseIncompleteVariances) {
   const auto refused = [&](std::vector<std::string> more, int code, const char* why) {
     more.insert(more.begin(), {"mine/x.exr", "references/x.exr"});
     const auto result = compare(more);

@@ -113,7 +113,7 @@ TEST_F(OutsideEngines, IsStartedOnlyWithPermission) {
         << folder;
 }
 
-TEST_F(OutsideEngines, AProgramStartsOnlyIfEveryFileThatHasASayIsTrusted) {
+TEST_F(OutsideEngines, StartOnlyIfEveryFileIsTrusted) {
   for (const char* folder : {"trusted/sub", "outside/deep"}) fs::create_directories(path(folder));
   const std::string engine = "<engine name=\"mine\" command=\"sh mine.sh {scene} {out}\"/>";
   for (const char* file : {"trusted/x.engine.xml", "outside/o.engine.xml"})
@@ -144,7 +144,7 @@ TEST_F(OutsideEngines, AProgramStartsOnlyIfEveryFileThatHasASayIsTrusted) {
             2);
 }
 
-TEST_F(OutsideEngines, NoProgramIsGivenAValueThatItCouldTakeForAnOption) {
+TEST_F(OutsideEngines, GetNoValueResemblingAnOption) {
   script("mine.sh", "");
   fs::copy_file(kScenes + "head_on.xml", path("--exec=evil.xml"));
   write_file(path("grid.xml"),
@@ -221,7 +221,7 @@ TEST_F(OutsideEngines, CanWriteNowhereElseAndLeavesNothingBehind) {
       run_shell("grep -qsa 'sleep.987[.]6' /proc/[0-9]*/cmdline", directory_.path()).exit_code, 0);
 }
 
-TEST_F(OutsideEngines, GetsTheVariablesThatAreNamedAndNoOthers) {
+TEST_F(OutsideEngines, GetsNamedVariablesOnly) {
   script("mine.sh", "echo \"<$HELLO|$SECRET>\"");
   grid("<engine name=\"mine\" command=\"sh mine.sh {scene} {out}\" environment=\"HELLO\"/>");
   const auto run = [&](const std::string& hello) {
@@ -253,7 +253,7 @@ TEST_F(OutsideEngines, SaysWhichScenesItCannotShow) {
               HasSubstr("calls for"));
 }
 
-TEST_F(OutsideEngines, ShowsPicturesThatAreThereAndMissesTheOthers) {
+TEST_F(OutsideEngines, ShowsExistingPicturesOnly) {
   fs::create_directory(path("renders"));
   ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "--width", "32", "--height", "32",
                          "--exponent", "16", "-o", "renders/studio_16.exr"},

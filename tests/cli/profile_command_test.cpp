@@ -30,7 +30,7 @@ class ProfileCommand : public ::testing::Test {
   const TemporaryDirectory directory_;
 };
 
-TEST_F(ProfileCommand, SaysFirstWhatExplainsTheHighlight) {
+TEST_F(ProfileCommand, PrintsTheBestExplanationFirst) {
   const auto result = run({"profile", "oblique_45.exr", "--scene", oblique_});
   EXPECT_THAT(result.output_tail,
               StartsWith("oblique_45: this highlight is best explained by exponent 64.00000 +- "
@@ -125,7 +125,7 @@ TEST_F(ProfileCommand, WritesTablesAndChartsOrPrintsThem) {
   EXPECT_FALSE(std::filesystem::exists(directory_.path() / "-"));
 }
 
-TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
+TEST_F(ProfileCommand, RefusesUnsupportedInputInOneLine) {
   const struct {
     std::vector<std::string> arguments;
     int exit_code;

@@ -7,7 +7,7 @@ namespace {
 
 std::string bytes(const std::filesystem::path& path) { return read_file(path, 1 << 28); }
 
-TEST(RenderCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndGoesOn) {
+TEST(RenderCommand, WarnsOutsideThePapersExponents) {
   const TemporaryDirectory directory;
   const auto render = [&](const char* exponent, const char* normalisation) {
     return run_lobelia({"render", kScenes + "head_on.xml", "--width", "8", "--height", "8",
@@ -65,7 +65,7 @@ TEST(RenderCommand, Renders16384x16384PixelsWithin1GiBOfMemory) {
   EXPECT_LT(result.peak_memory_bytes, std::uint64_t{1} << 30);
 }
 
-TEST(RenderCommand, RefusesAtOnceWhatNeedsALargePictureInMemory) {
+TEST(RenderCommand, RefusesOptionsThatNeedTooMuchMemory) {
   const TemporaryDirectory directory;
   const auto render = [&](std::vector<std::string> more, const char* side = "16384") {
     std::vector<std::string> arguments{
@@ -100,7 +100,7 @@ const std::string kWhenItListens =
 const std::string kLongRender =
     "\"$LOBELIA\" render \"$SCENES\"oblique_45.xml --width 4096 --height 4096 --samples 4096 -q -o x.exr --png x.png";
 
-TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
+TEST(RenderCommand, LeavesNothingAfterCtrlC) {
   const TemporaryDirectory directory;
   const auto result = run_shell(kWhenItListens + "{ when_it_listens; kill -INT $$; } & " +
                                     kTellProcess + "exec " + kLongRender,

@@ -43,7 +43,7 @@ TEST_F(SceneCommand, NeverWritesOverTheSceneThatItReads) {
   EXPECT_EQ(files_in(directory_.path()), 1u);
 }
 
-TEST_F(SceneCommand, SaysWhatAFormatCannotAndWritesNothing) {
+TEST_F(SceneCommand, WritesNothingIfAFormatCannotHoldTheScene) {
   const auto refused = run("\"$SCENES\"oblique_45.xml --to mitsuba -o out");
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.output_tail,
@@ -53,7 +53,7 @@ TEST_F(SceneCommand, SaysWhatAFormatCannotAndWritesNothing) {
   EXPECT_EQ(files_in(directory_.path()), 0u);
 }
 
-TEST_F(SceneCommand, ReadsMitsubaAndWarnsOfEachPartThatItDoesNot) {
+TEST_F(SceneCommand, WarnsOfEachUnreadPartOfAMitsubaScene) {
   ASSERT_EQ(run("\"$SCENES\"oblique_45.xml --to mitsuba --model modified_phong -o mi").exit_code,
             0);
   ASSERT_EQ(

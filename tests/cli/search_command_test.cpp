@@ -29,7 +29,7 @@ TEST_F(SearchCommand, FindsTheNearestForAPrice) {
   EXPECT_THAT(nearest.output_tail, HasSubstr("pk3.1: no lobe of this shape has a smaller error"));
 }
 
-TEST_F(SearchCommand, SaysTheBestThatIsPossibleIfARequestCannotBeMet) {
+TEST_F(SearchCommand, PrintsTheBestLobeIfNoneMeetsTheRequest) {
   const auto result = run("--error 1e-4 --operations 5");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.output_tail,

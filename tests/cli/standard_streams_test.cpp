@@ -80,7 +80,7 @@ TEST_F(StandardStreams, StderrThatCannotBeWrittenChangesNoExitCode) {
   }
 }
 
-TEST_F(StandardStreams, StdoutThatCannotBeWrittenIsExitCode4AndOneLineOr141WithoutAReader) {
+TEST_F(StandardStreams, FailWithExitCode4OnAFullDisk) {
   std::size_t number = 0;
   for (const char* command : {"--help",
                               "--version",
@@ -135,7 +135,6 @@ TEST_F(StandardStreams, ReceiveNoPictureWhenTheyAreClosed) {
   }
 }
 
-/// A pipe that is full.
 class FullPipe {
  public:
   FullPipe() {
@@ -200,7 +199,7 @@ TEST_F(StandardStreams, AMessageWaitsForItsReaderAndIsWhole) {
   EXPECT_TRUE(text.ends_with("\n")) << text;
 }
 
-TEST_F(StandardStreams, AMessageThatNobodyReadsDoesNotKeepSigtermWaiting) {
+TEST_F(StandardStreams, EndOnSigtermDespiteAnUnreadMessage) {
   FullPipe pipe;
   const pid_t pid = pipe.start({"plan", "missing.xml"});
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

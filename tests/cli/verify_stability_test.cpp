@@ -11,7 +11,7 @@ float brightest(const std::filesystem::path& picture) {
   return *std::max_element(image.values().begin(), image.values().end());
 }
 
-TEST(VerifyStability, PrintsATableAndWritesARecordAndPicturesThatShowWhatCareBuys) {
+TEST(VerifyStability, WritesARecordWithPictures) {
   const TemporaryDirectory directory;
   const auto result = run_lobelia(
       {"verify", "stability", "--lobe", "cs12", "-q", "--json", "s.json", "--pictures", "pictures"},

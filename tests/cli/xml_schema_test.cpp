@@ -108,7 +108,7 @@ TEST_P(XmlSchemaOf, KnowsEveryFileOfTheSourceThatIsRead) {
   EXPECT_EQ(checked.exit_code, 0) << checked.output_tail;
 }
 
-TEST_F(XmlSchema, KnowsWhatTheProgramWrites) {
+TEST_F(XmlSchema, AcceptsFilesWrittenByTheProgram) {
   std::vector<std::string> written;
   for (std::uint64_t seed = 1; seed <= 200; ++seed)
     written.push_back(example(scene_to_xml(random_scene(seed, SceneKind::kAny))));

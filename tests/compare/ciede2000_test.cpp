@@ -60,7 +60,7 @@ TEST(Ciede2000, AgreesWithThe34PairsOfSharma) {
   }
 }
 
-TEST(Ciede2000, TakesThePlainMeanOfHuesThatAreOppositeWhateverRoundingMakesOfThem) {
+TEST(Ciede2000, TakesThePlainMeanOfOppositeHues) {
   // Opposite in decimal numbers; in binary the angles are a little more or less than 180 apart.
   for (int degrees = 1; degrees < 180; ++degrees) {
     const double angle = degrees * std::numbers::pi / 180;

@@ -144,7 +144,7 @@ TEST(HighlightTruth, LiesWithinTheErrorBarOfAClippedHighlight) {
 }
 TEST(HighlightTruth, LiesWithinTheErrorBarOnATexture) { expect_coverage({.textured = true}, 5); }
 
-TEST(HighlightTruth, IsNeverTakenForACosineIfItIsGgxNorTheOtherWayRound) {
+TEST(HighlightTruth, IsNeverConfusedBetweenCosineOrGgx) {
   std::mt19937 random(6);
   for (int k = 0; k < 10 * more_samples(); ++k)
     for (const std::string family : {"phong", "blinn_phong", "ggx"}) {

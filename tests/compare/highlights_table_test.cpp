@@ -72,7 +72,6 @@ Image each(const Image& image, const std::function<double(double)>& change) {
   return result;
 }
 
-/// The highlight's own line.
 const records::LocalHighlight* line_of(const Comparison& comparison, const Spot& spot) {
   const auto found = std::ranges::find_if(comparison.highlights, [&](const auto& one) {
     return std::hypot(one.x + 0.5 - spot.x, one.y + 0.5 - spot.y) < 2;
@@ -103,7 +102,7 @@ TEST(HighlightsTable, HasNothingMissedBesideALightOfAnyBrightness) {
     }
 }
 
-TEST(HighlightsTable, SaysWhatWasChanged) {
+TEST(HighlightsTable, NamesEachChange) {
   std::mt19937 random(57);
   int lines = 0;
   for (int round = 0; round < 40; ++round) {
@@ -169,7 +168,7 @@ TEST(HighlightsTable, HasTheFiguresThatAreJudged) {
   }
 }
 
-TEST(HighlightsTable, SaysThatABroadOneCarriesANarrowOneInAAlone) {
+TEST(HighlightsTable, FindsAnExtraHighlightOnABroadOne) {
   const Beside broad{{80, 60, 0.7, 40, 40}, 0.2, 800, 12, 12},
       narrow{{80, 60, 2.5, 3, 3}, 0, 0, 12, 12};
   const Image reference = broad.with(), highlight = narrow.with();
@@ -275,7 +274,7 @@ Image texture(double phase) {
   });
 }
 
-TEST(HighlightsTable, HasNoAlarmForTexturesAndSlopesThatHardlyDiffer) {
+TEST(HighlightsTable, HasNoAlarmForNearlyEqualTextures) {
   for (const Image& reference :
        {texture(0), texture(1.2),
         picture(kTableWidth, kTableHeight, [](double x, double) { return x; }),
@@ -337,7 +336,7 @@ Image with_filtered_noise(const Image& clean, std::mt19937& random) {
   return filtered;
 }
 
-TEST(HighlightsTable, TakesNoFilteredNoiseForAHighlightThatTheReferenceLacks) {
+TEST(HighlightsTable, TakesNoFilteredNoiseForAHighlight) {
   const Image clean = Beside{{80, 60, 1, 8, 8}, 0.2, 0.2, 12, 12}.with();
   std::mt19937 random(61);
   for (int round = 0; round < 60; ++round) {

@@ -113,7 +113,7 @@ TEST(Highlights, AreNotTakenOverByFireflies) {
   }
 }
 
-TEST(Highlights, HaveTheColourOfWhatLiesOverTheBackground) {
+TEST(Highlights, HaveTheColourAboveTheBackground) {
   const Spot spot{60.3, 50.8, 2, 8, 6};
   const std::array<double, 3> light = {0.5, 1, 0.25}, floor = {0.3, 0.1, 0.4};
   Image image(120, 100);

@@ -68,7 +68,7 @@ std::pair<double, double> coverage(double of_peak, double of_value) {
   return {double(one) / kPictures, double(two) / kPictures};
 }
 
-TEST(CosineFit, IntervalHoldsTheTruthAsOftenAsClaimedUnderEvenAndProportionalNoise) {
+TEST(CosineFit, IntervalHoldsTheTruthAsOftenAsClaimed) {
   // Three standard deviations of a share of 600 are 0.057 at 0.683 and 0.026 at 0.954.
   for (const auto& [of_peak, of_value] : {std::pair{0.02, 0.0}, {0.0, 0.05}, {0.005, 0.03}}) {
     const auto [one, two] = coverage(of_peak, of_value);

@@ -101,7 +101,7 @@ TEST(DifferenceMaps, AddUpToTheMetricsOfTheirNameAtTheSameExposure) {
   }
 }
 
-TEST(DifferenceMaps, RelativeIsOfTheReferenceAndLargestWhereThatHasNothing) {
+TEST(DifferenceMaps, DivideRelativeErrorsByTheReference) {
   Image a = fixtures::flat(3, 1, 1.5f, 1, 1), b = fixtures::flat(3, 1, 1, 1, 1);
   b.pixel(1, 0)[0] = 0;
   b.pixel(2, 0)[0] = -3;
@@ -143,7 +143,7 @@ TEST(ColourMaps, AreBlueWhiteAndRedForSignedValues) {
   EXPECT_THAT(pixel(picture, 3), ElementsAre(255, 0, 0)) << "what is beyond the scale is clipped";
 }
 
-TEST(ColourMaps, ShowWhatIsNotANumberInAColourOfItsOwn) {
+TEST(ColourMaps, ShowNansInTheirOwnColour) {
   const std::vector<float> values{std::numeric_limits<float>::quiet_NaN()};
   for (const std::string_view name : colour_map_names())
     EXPECT_THAT(pixel(colour_picture(values, 1, 1, 1, name), 0), ElementsAre(0, 255, 0)) << name;

@@ -6,6 +6,7 @@
 #include "compare/mask.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -62,13 +63,9 @@ TEST(MaskShapes, AreRefusedInOneSentenceIfMalformed) {
         std::string("rect:1e9,0,1,1"), std::string("rect:1,,2,3,4"), std::string("polygon:"),
         std::string("polygon:1,1 2,2"), std::string("polygon:1,1 2,2 3"),
         std::string("polygon:1,1 2,2 inf,3"), "polygon:" + corners})
-    try {
-      parse_mask_shape("--mask", text);
-      ADD_FAILURE() << text;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kUsage) << text;
-      EXPECT_THAT(error.what(), HasSubstr("--mask"));
-    }
+    EXPECT_THAT(error_words(ExitCode::kUsage, [&] { parse_mask_shape("--mask", text); }),
+                HasSubstr("--mask"))
+        << text;
 }
 
 PixelFlags random_mask(std::size_t pixels, unsigned seed) {
@@ -78,7 +75,7 @@ PixelFlags random_mask(std::size_t pixels, unsigned seed) {
   return mask;
 }
 
-TEST(MaskedFigures, AreThoseOfPlainLoopsOverThePixelsInsideAndOutside) {
+TEST(MaskedFigures, EqualThoseOfPlainLoops) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Image a = fixtures::noise(37, 29, seed, 1.0f),
                 b = fixtures::noise(37, 29, seed + 9, 1.0f);

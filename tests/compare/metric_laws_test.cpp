@@ -186,7 +186,7 @@ TEST(MetricLaws, TheBestValueAndBothEndsOfARangeAreLimits) {
     }
 }
 
-TEST(Limits, BeyondTheRangeAreAnsweredWithWhatToWrite) {
+TEST(Limits, AreCorrectedIfBeyondTheRange) {
   const auto problem = [](const char* id, double limit) {
     return limit_problem(*find_metric_output(id), limit);
   };
@@ -221,7 +221,7 @@ TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
     }
 }
 
-TEST(MetricLaws, AMetricThatIsCalledSymmetricDoesNotChangeWhenThePicturesAreExchanged) {
+TEST(MetricLaws, SymmetricMetricsIgnoreTheOrderOfPictures) {
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
       const std::vector<double> forth = measure(*metric, a, b), back = measure(*metric, b, a);

@@ -57,7 +57,7 @@ TEST(NoiseDraws, HaveTheVarianceOfTheMeanForAnyNumberOfReplicates) {
   }
 }
 
-TEST(NoiseDraws, KeepWhatChannelsOfReplicatesHaveInCommon) {
+TEST(NoiseDraws, KeepTheCorrelationOfChannels) {
   for (const int count : {2, 3, 9}) {
     const Moments drawn = moments(mean_of_normal(count, true).noise, Together::kNothing, 6);
     EXPECT_NEAR(drawn.product / std::sqrt(drawn.first * drawn.second), 1, 1e-6) << count;
@@ -136,7 +136,7 @@ TEST(CommonExpectation, IsThePictureWithoutNoiseWhereOneHasNone) {
   EXPECT_TRUE(is_truth(common_expectation(truth, truth, {})));
 }
 
-TEST(Noise, NamesFirefliesAndNoNormalNoiseNorASilhouette) {
+TEST(Noise, ReportsOnlyTrueFireflies) {
   for (const NoiseKind kind : fixtures::kNoiseKinds)
     for (const int count : {2, 4}) {
       const double share = fixtures::noisy_mean(kind, 5, count, 8).noise.fireflies;

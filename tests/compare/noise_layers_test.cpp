@@ -229,7 +229,7 @@ TEST_F(NoiseLayers, TakeVariancePassAndSamplesFromOldCycles) {
     ASSERT_NEAR(noise.standard_error.values()[i], unbiased * standard_error(moments, i), 1e-5);
 }
 
-TEST_F(NoiseLayers, CalledStandardErrorAreWhatTheySay) {
+TEST_F(NoiseLayers, ReadTheLayerStandardError) {
   std::vector<ExrChannel> channels;
   add(channels, "", "RGB", [](std::size_t) { return 1; });
   add(channels, "StandardError", "RGB", [](std::size_t) { return 0.25; });

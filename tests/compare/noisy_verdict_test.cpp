@@ -24,7 +24,7 @@ Comparison compare_noisy(double brighter, float error, ComparisonOptions options
   return compare(a, b, options);
 }
 
-TEST(NoisyVerdict, IsSameOrDifferentWhereTheWholeErrorBarSaysSo) {
+TEST(NoisyVerdict, FollowsTheWholeErrorBar) {
   ComparisonOptions options;
   options.limits = {{"rmse", 0.01}};
   EXPECT_EQ(compare_noisy(0, 0.001f, options).verdict, Verdict::kSame);

@@ -100,7 +100,7 @@ TEST(PixelsOver, AThresholdAreThoseOfAPlainLoopOverTheCodes) {
   }
 }
 
-TEST(PixelsOver, AnyThresholdIsFoundInItsShortestFormAndNothingElseIs) {
+TEST(PixelsOver, TakesAnyThresholdInItsShortestForm) {
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
       const std::size_t any = output.id.find("=0");
@@ -129,7 +129,7 @@ std::vector<std::string> ids(const Comparison& comparison) {
   return ids;
 }
 
-TEST(MetricList, MeasuresWhatIsAskedAndWhatTheLimitsNeedWithTheSameValues) {
+TEST(MetricList, MeasuresListedMetricsPlusThoseOfTheLimits) {
   const Image a = fixtures::highlight(48, 40, 20, 3.0), b = fixtures::highlight(48, 40, 22, 3.1);
   ComparisonOptions options;
   options.viewing.automatic = options.highlight = true;

@@ -139,7 +139,7 @@ struct FullPatch : Patch {
   }
 };
 
-TEST(HighlightFigures, AreThoseOfWhatLiesOverTheBase) {
+TEST(HighlightFigures, IgnoreTheBaseBeneath) {
   const FullPatch patch;
   const Image image = patch.image(
       [&](double angle) { return FullPatch::kBase + 3 * gaussian_of_width(angle, 10); });
@@ -165,7 +165,7 @@ TEST(HighlightFigures, AreThoseOfWhatLiesOverTheBase) {
   EXPECT_GT(figures.cosine.residual, 1e-5);
 }
 
-TEST(HighlightFigures, SayWhatKeepsThemFromBeingMeasured) {
+TEST(HighlightFigures, ExplainMissingMeasurements) {
   const FullPatch patch;
   const auto of = [&](const Image& image, double end) {
     return measure_profile(patch.full(end / 3, end / 2, end), {{"a", &image}}, {}).figures.at(0);

@@ -7,7 +7,7 @@
 namespace lobelia {
 namespace {
 
-TEST(ComparisonRecord, HasEveryMetricThatNeedsNoAskingAndWhatWasAllowed) {
+TEST(ComparisonRecord, HasEveryDefaultMetricWithItsTolerance) {
   const Image a = fixtures::highlight(180, 180, 10, 1.0),
               b = fixtures::highlight(180, 180, 10, 1.1);
   ComparisonOptions options;

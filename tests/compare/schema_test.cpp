@@ -148,7 +148,7 @@ TEST(ProfileSchema, HoldsForProfilesOfEveryKindOfPicture) {
   EXPECT_EQ(schema_problems(records::Profiles{{profile}}), "");
 }
 
-TEST(MetricsDocument, IsWhatTheProgramPrints) {
+TEST(MetricsDocument, MatchesTheOutputOfTheProgram) {
   EXPECT_EQ(read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/metrics.md", 1 << 20),
             metrics_document())
       << "run: lobelia compare --list-metrics > docs/metrics.md";

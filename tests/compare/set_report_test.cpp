@@ -124,7 +124,7 @@ TEST(SetOutcomes, FailForANameWithoutAReferenceIfAsked) {
   }
 }
 
-TEST(SetSummary, NamesThePairThatIsWorstByTheDirectionOfTheMetric) {
+TEST(SetSummary, NamesTheWorstPairOfEachMetric) {
   const std::vector<PairReport> pairs{compared("near.exr", 0.5f, 0.51f),
                                       compared("below.exr", 0.3f, 0.5f), broken("x.exr"),
                                       compared("same.exr", 0.5f, 0.5f)};
@@ -143,7 +143,7 @@ TEST(SetSummary, NamesThePairThatIsWorstByTheDirectionOfTheMetric) {
   for (const MetricSummary& one : summaries) EXPECT_NE(one.id, "max_abs.x") << "a fact";
 }
 
-TEST(SetRecord, HoldsEveryPairsRecordAndWhatHadNone) {
+TEST(SetRecord, HoldsARecordForEveryName) {
   SetReport report = set_of({compared("good.exr", 0.5f, 0.5f), broken("x.exr")});
   report.missing = {"gone.exr"};
   report.passed_over = 3;

@@ -2,6 +2,7 @@
 #include "compare/set/pairing.hpp"
 #include "core/files.hpp"
 #include "tests/test.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -43,14 +44,7 @@ class FolderPairing : public ::testing::Test {
   }
   /// Why the choice cannot be paired.
   static std::string refusal(const PairingChoice& choice, ExitCode code) {
-    try {
-      pair_pictures(choice);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "was paired";
-    return "";
+    return error_words(code, [&] { pair_pictures(choice); });
   }
   void SetUp() override {
     fs::create_directories(folder_.path() / "a");
@@ -68,14 +62,14 @@ TEST_F(FolderPairing, IsByThePathWithinTheFolderAndSorted) {
   EXPECT_THAT(pairs().extra, ElementsAre("x.PNG", "z.png"));
 }
 
-TEST_F(FolderPairing, PassesOverWhatIsNoPictureAndCountsIt) {
+TEST_F(FolderPairing, CountsSkippedFilesWithoutAPicture) {
   for (const char* file : {"a/z.json", "a/.exr", "a/notes", "b/exr", "b/a.exr.log"}) put(file);
   EXPECT_THAT(pairs().both, IsEmpty());
   EXPECT_THAT(pairs().missing, IsEmpty());
   EXPECT_EQ(pairs().passed_over, 5u);
 }
 
-TEST_F(FolderPairing, LeavesOutWhatAnAcceptanceReplaced) {
+TEST_F(FolderPairing, OmitsReplacedReferences) {
   for (const char* file : {"a/x.exr", "b/x.exr", "b/deep/.lobelia-accepted/old.exr"}) put(file);
   EXPECT_THAT(pairs().missing, IsEmpty());
   EXPECT_EQ(pairs().passed_over, 0u);
@@ -163,7 +157,7 @@ TEST_F(FolderPairing, TellsFoldersOfOneNameApart) {
 
 using PatternPairing = FolderPairing;
 
-TEST_F(PatternPairing, FindsAllSetsInOneFolderByTheFieldThatTellsThemApart) {
+TEST_F(PatternPairing, FindsAllSetsOfOneFolderByAField) {
   for (const char* file : {"a/ball_mine.exr", "a/ball_ref.exr", "a/big_ball_mine.exr",
                            "a/big_ball_ref.exr", "a/cube_ref.exr", "a/ball_other.exr", "a/x.exr"})
     put(file);
@@ -209,7 +203,7 @@ TEST_F(PatternPairing, GivesTheFirstFieldAsMuchAsItCanWithoutTryingForEver) {
   EXPECT_EQ(pairing.passed_over, 2u);
 }
 
-TEST_F(PatternPairing, RefusesWhatCannotBeMeant) {
+TEST_F(PatternPairing, RefusesSenselessPatterns) {
   put("a/x_1.exr");
   put("a/x_2.exr");
   PairingChoice choice = this->choice();
@@ -254,7 +248,7 @@ TEST_F(SequencePairing, IsByTheNumberHoweverItIsWritten) {
   EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("sequences with sequences"));
 }
 
-TEST_F(SequencePairing, NamesFilesThatNearlyAreFramesAndNoOthers) {
+TEST_F(SequencePairing, NamesOnlyFilesLikeFrames) {
   for (const char* file : {"a/f.0001.exr", "b/f.0001.exr", "a/f.1.exr", "a/f.-001.exr",
                            "a/f.00002.exr", "a/f.0001.5.exr", "a/f.0003.EXR", "b/F.+0004.exr"})
     put(file);
@@ -297,7 +291,7 @@ class TablePairing : public FolderPairing {
   }
 };
 
-TEST_F(TablePairing, HasTheTitlesOfTheSetsInItsFirstLineAndPathsFromWhereItLies) {
+TEST_F(TablePairing, ReadsTitlesFromItsFirstLine) {
   const Pairing pairing =
       pair_pictures(table("\xef\xbb\xbfmine,name,reference,old\r\n"
                           "a/x.exr,first,b/x.exr,\r\n"
@@ -309,7 +303,7 @@ TEST_F(TablePairing, HasTheTitlesOfTheSetsInItsFirstLineAndPathsFromWhereItLies)
   EXPECT_THAT(files(pairing, 0), ElementsAre("a/with, comma and \"quote\".exr", "a/x.exr", "-"));
 }
 
-TEST_F(TablePairing, RefusesWhatIsNoTableOfPairs) {
+TEST_F(TablePairing, RefusesFilesWithoutATable) {
   for (const auto& [text, why] : {std::pair(std::string(), "is empty"),
                                   {"a\nx\n", "titles of two sets or more"},
                                   {"a,a\nx,y\n", "two sets have one title"},

@@ -142,7 +142,7 @@ int most_alarms(int trials, double level) {
       boost::math::quantile(boost::math::complement(boost::math::binomial(trials, level), 1e-3)));
 }
 
-TEST(ZTest, FindsNothingInNoiseMoreOftenThanItsSignificanceSays) {
+TEST(ZTest, FindsNothingInNoiseBeyondItsSignificance) {
   // Two half-sample pictures of 8 samples a pixel each, and four, against the truth and against another pair.
   // The nearest to the level, of 300 trials at 0.05: silhouettes, 0.03 from two and 0.017 from four; all
   // others 0.004 and less.
@@ -226,7 +226,7 @@ TEST(ZTest, FindsADriftOfAPercentThatNoPixelShows) {
   }
 }
 
-TEST(ZTest, FindsADimmerMovedOrWiderHighlightThatNoRegionShows) {
+TEST(ZTest, FindsHighlightChangesHiddenFromRegions) {
   // In each value noise of a tenth of the peak, two pictures a side. A score test finds what is 4 to 8 errors of its sum.
   constexpr int kSide = 48, kTrials = 10;
   const auto highlight = [](double u, double v, double width) {
@@ -274,7 +274,7 @@ TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
   EXPECT_EQ(test.regions, 9) << "10 x 7, 5 x 4, 3 x 2, 2 x 1, 1 x 1, and four patterns";
 }
 
-TEST(ZTest, TakesOffWhatATolerancePermitsAndItsOutliers) {
+TEST(ZTest, SubtractsTheTolerance) {
   const Image b = fixtures::flat(16, 16, 1, 1, 1);
   Image a = b;
   for (float& value : a.values()) value += 0.0009f;  // rounding, all to one side
@@ -407,7 +407,7 @@ TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
   EXPECT_NE(error(), many);
 }
 
-TEST(ErrorBars, CallNoLimitBrokenWherePixelsErrInGroupsAndNothingDiffers) {
+TEST(ErrorBars, BreakNoLimitIfPixelsErrInGroups) {
   // Neither each by itself nor all together: rows of pixels share their noise.
   constexpr int kTrials = 30;
   const Image b = fixtures::highlight(32, 32, 4, 1);

@@ -3,6 +3,7 @@
 
 #include "compare/set/run.hpp"
 #include "tests/compare/layer_files.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
@@ -26,13 +27,9 @@ class UnjudgedLimits : public LayerFiles {
   }
   /// Why the limits are refused; empty if they are not.
   static std::string refusal(const CompareChoice& choice) {
-    try {
-      run(choice);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kUsage) << error.what();
-      return error.what();
-    }
-    return "";
+    const Error error = thrown_by([&] { run(choice); });
+    EXPECT_TRUE(error.code() == ExitCode::kSuccess || error.code() == ExitCode::kUsage);
+    return error.what();
   }
   /// A folder with a picture that has depth, if a value is given, and one that has not.
   void folder(const std::string& name, const std::optional<float>& value) {

@@ -7,22 +7,12 @@
 #include "core/files.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
+#include "tests/thrown.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr float kFloatNaN = std::numeric_limits<float>::quiet_NaN();
-
-template <class Function>
-Error error_of(Function function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return Error(ExitCode::kInternal, "");
-}
 
 TEST(Verdict, AgainstABlackReferenceIsDiffers) {
   EXPECT_EQ(compare(fixtures::flat(4, 4, 1e-6f, 0, 0), fixtures::flat(4, 4, 0, 0, 0), {}).verdict,
@@ -52,7 +42,7 @@ TEST(Tolerance, CountsPixelsAndAllowsSoMany) {
 }
 
 TEST(Comparison, RefusesPicturesWithoutPixels) {
-  EXPECT_EQ(error_of([] { compare(Image(), Image(), {}); }).code(), ExitCode::kInput);
+  EXPECT_EQ(thrown_by([] { compare(Image(), Image(), {}); }).code(), ExitCode::kInput);
 }
 
 TEST(Comparison, SuggestsTheMetricThatWasMeant) {
@@ -60,7 +50,7 @@ TEST(Comparison, SuggestsTheMetricThatWasMeant) {
   limited.limits = {{"ciede2000.p96", 1}};
   measured.metrics = {"ciede2000.p96"};
   for (const ComparisonOptions& options : {limited, measured}) {
-    const Error error = error_of([&] { check_options(options); });
+    const Error error = thrown_by([&] { check_options(options); });
     EXPECT_EQ(error.code(), ExitCode::kUsage);
     EXPECT_THAT(error.what(), HasSubstr("did you mean 'ciede2000.p95'?"));
   }
@@ -70,7 +60,7 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
   const auto refused = [](auto change) {
     ComparisonOptions options;
     change(options);
-    EXPECT_EQ(error_of([&] { check_options(options); }).code(), ExitCode::kUsage);
+    EXPECT_EQ(thrown_by([&] { check_options(options); }).code(), ExitCode::kUsage);
   };
   const double nan = kFloatNaN;
   refused([&](ComparisonOptions& o) { o.viewing.exposure_stops = nan; });

@@ -28,7 +28,7 @@ TEST(Display, ExposureIsInStops) {
   EXPECT_EQ(exposure_for_peak(std::numeric_limits<double>::infinity()), 0);
 }
 
-TEST(Display, ShowsWhatIsNotFiniteInMagenta) {
+TEST(Display, ShowsNonfinitePixelsInMagenta) {
   Image image = grey(0.5);
   image.values()[1] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(to_display(image, 0).rgb, (std::vector<std::uint8_t>{255, 0, 255}));

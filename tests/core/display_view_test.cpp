@@ -120,14 +120,14 @@ TEST_F(DisplayViews, AreListedWhereAnUnknownOneIsRefused) {
   EXPECT_THAT(message_of({config_, "", "", ""}, ExitCode::kInput), HasSubstr(config_));
 }
 
-TEST_F(DisplayViews, ShowInOurConfigurationWhatThePlainDisplayShows) {
+TEST_F(DisplayViews, MatchThePlainDisplayInOurConfiguration) {
   const auto own = DisplayView::open({kOwnConfig, "sRGB", "", ""});
   ASSERT_NE(own, nullptr);
   for (const float value : {-1.0f, 0.0f, 1e-4f, 0.003f, 0.18f, 0.9f, 1.0f, 40.0f})
     EXPECT_NEAR(grey(*own, value), std::clamp(value, 0.0f, 1.0f), 1e-6);
 }
 
-TEST_F(DisplayViews, ShowInBlendersStandardWhatThePlainDisplayShows) {
+TEST_F(DisplayViews, MatchThePlainDisplayInBlendersStandard) {
   const std::string config = "/usr/share/blender/datafiles/colormanagement/config.ocio";
   if (!std::filesystem::exists(config)) GTEST_SKIP() << "Blender is not installed: no " << config;
   const auto standard = DisplayView::open({config, "sRGB", "Standard", ""});

@@ -50,7 +50,7 @@ TEST(ExrWriter, AnotherReaderFindsEveryBitWhateverTheSize) {
     }
 }
 
-TEST(ExrWriter, TheBytesAreTheSameHoweverManyRowsComeAtATimeAndThreadsWork) {
+TEST(ExrWriter, WritesTheSameBytesForAnyRowsOrThreads) {
   const TemporaryDirectory directory;
   const Image image = picture(701, 107);
   ASSERT_GT(image.pixel_count(), kPixelsOfOneThread) << "or one thread packs all";

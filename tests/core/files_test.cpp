@@ -95,7 +95,7 @@ TEST(ReadFile, EndsAtAnInterruptionOnlyIfTheFileIsLarge) {
   forget_interrupt();
 }
 
-TEST(RequireWritable, LeavesNothingAndAsksForADirectoryThatIsThereAndMayBeWritten) {
+TEST(RequireWritable, NeedsAnExistingWritableDirectory) {
   const TemporaryDirectory directory;
   const fs::path here = directory.path();
   require_writable(here / "new");
@@ -108,7 +108,7 @@ TEST(RequireWritable, LeavesNothingAndAsksForADirectoryThatIsThereAndMayBeWritte
     EXPECT_EQ(code_of([&] { require_writable(wrong); }), ExitCode::kOutput) << wrong;
 }
 
-TEST(RequireWritable, RefusesADirectoryThatWasRemovedWhileItIsTheCurrentOne) {
+TEST(RequireWritable, RefusesARemovedCurrentDirectory) {
   const fs::path before = fs::current_path();
   for (const fs::path& parent : {fs::temp_directory_path(), fs::path("/dev/shm")}) {
     if (!fs::is_directory(parent)) continue;
@@ -121,7 +121,7 @@ TEST(RequireWritable, RefusesADirectoryThatWasRemovedWhileItIsTheCurrentOne) {
   }
 }
 
-TEST(PartFile, HoldsWhatWasAppendedAndOverwrittenInPiecesOfAnySize) {
+TEST(PartFile, HoldsContentWrittenInPiecesOfAnySize) {
   const TemporaryDirectory directory;
   std::mt19937 random;
   const auto up_to = [&](std::size_t most) { return random() % (most + 1); };
@@ -168,7 +168,7 @@ TEST(PartFile, TakesTheContentOfAnotherFile) {
   EXPECT_EQ(read_file(directory.path() / "to", 1'000'000), "before " + text + " after");
 }
 
-TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
+TEST(WriteFile, KeepsTheOldFileIfTheNewOneDoesNotFit) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";
   write_file(path, "old");
@@ -188,7 +188,7 @@ TEST(WriteFile, LeavesTheOldFileAndNoPartIfTheNewOneDoesNotFit) {
   EXPECT_EQ(entries(directory.path()), 1u);
 }
 
-TEST(ReadFile, RefusesWhatIsMissingTooLongOrNoFileAndWaitsForNoPipe) {
+TEST(ReadFile, RefusesMissingOrTooLongFiles) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt", pipe = directory.path() / "pipe";
   write_file(path, "12345");

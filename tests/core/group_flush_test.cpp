@@ -8,7 +8,6 @@
 namespace lobelia {
 namespace {
 
-/// Writes a file as others do that a group flushes.
 fs::path written(const GroupFlush& flush, const fs::path& path) {
   const auto later = flush.later();
   write_file(path, path.filename().string());
@@ -37,7 +36,7 @@ TEST(GroupFlush, CallsEachOnceAfterAllItsFilesAreThere) {
   EXPECT_EQ(failures, 0);
 }
 
-TEST(GroupFlush, TellsWhatFailsAndGoesOn) {
+TEST(GroupFlush, GoesOnAfterAFailure) {
   const TemporaryDirectory directory;
   fs::create_symlink("loop", directory.path() / "loop");
   std::atomic<int> failures = 0, calls = 0;

@@ -48,7 +48,7 @@ TEST(Half, HasEveryValueThereAndBack) {
   }
 }
 
-TEST(Half, IsTheNearestToEveryFloatAsOpenExrAndTheProcessorRound) {
+TEST(Half, RoundsEveryFloatAsOpenExrDoes) {
   std::mt19937 random(1);
   std::vector<float> values{0.0f,       -0.0f,        65504,        65519.996f, 65520,
                             -65520,     1e30f,        0x1p-24f,     0x1p-25f,   0x1.000002p-25f,

@@ -18,7 +18,7 @@ std::ptrdiff_t threads_of_this_process() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
 }
 
-TEST(Exr, IsCodedOnTheCallingThreadWhereAProcessAsksForThat) {
+TEST(Exr, IsCodedOnTheCallingThreadOnRequest) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // in a process that has written none before
   const auto threads_started = [] {
     const TemporaryDirectory directory;

@@ -41,7 +41,7 @@ class LeaveTest : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(LeaveTest, IsThereIfTheUserGivesItOrTrustsEveryFileThatHasASay) {
+TEST_F(LeaveTest, NeedsTheUserOrTrustInEveryFile) {
   EXPECT_FALSE(Leave());
   EXPECT_FALSE(Leave::of_user(false));
   EXPECT_TRUE(Leave::of_user(true).said_by(path("secret")));
@@ -80,7 +80,7 @@ TEST_F(LeaveTest, SaysWhichFoldersAreDoubtful) {
   EXPECT_EQ(doubts(path("trusted/deep")), "");
 }
 
-TEST_F(LeaveTest, IsNotNeededForAFileInTheDirectoryThatNamesItOrBelow) {
+TEST_F(LeaveTest, IsNotNeededBelowTheNamingDirectory) {
   for (const char* name : {"inside/x", "stays", "inside/../inside/x", "up/own/inside/x"})
     EXPECT_EQ(opened(name), std::pair(ExitCode::kSuccess, std::string("own/inside/x"))) << name;
 }

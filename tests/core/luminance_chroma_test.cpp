@@ -52,7 +52,7 @@ class LuminanceChroma : public PictureFiles {
   std::mt19937 random_{11};
 };
 
-TEST_F(LuminanceChroma, IsWhatOpenExrMakesOfIt) {
+TEST_F(LuminanceChroma, MatchesOpenExr) {
   for (int i = 0; i < 12; ++i) {
     std::uniform_int_distribution<int> half_side(1, 40), corner(-5, 5);
     const int width = 2 * half_side(random_), height = 2 * half_side(random_);

@@ -27,7 +27,7 @@ TEST(PictureLayers, AreFoundByNameInWhateverOrderTheChannelsAre) {
   EXPECT_THAT(find_layer("", file, "diffuse.G").where, ElementsAre(9));
 }
 
-TEST(PictureLayers, KnowWhatIsAColour) {
+TEST(PictureLayers, RecogniseColours) {
   const std::vector<PicturePart> file = {
       {"", {"R", "G", "B", "A", "Z", "N.X", "N.Y", "N.Z", "sss.Y"}}};
   for (const char* name : {"", "R", "sss"})
@@ -108,7 +108,7 @@ TEST(PictureLayers, HoldEveryChannelOnceWhateverTheNamesAre) {
   }
 }
 
-TEST(PictureLayers, APictureIsRgbOrElseYOrElseTheOnlyThingThereIs) {
+TEST(PictureLayers, PreferRgbThenYThenTheOnlyLayer) {
   EXPECT_THAT(find_layer("", {{{"", {"A", "Y"}}}}, "").where, ElementsAre(1));
   EXPECT_THAT(find_layer("", {{{"", {"Y", "R", "G", "B"}}}}, "").where, ElementsAre(1, 2, 3));
   EXPECT_THAT(find_layer("", {{{"", {"depth"}}}}, "").where, ElementsAre(0));
@@ -194,7 +194,7 @@ TEST(PictureLayers, AreFoundByTheNamesOfOtherRenderers) {
   EXPECT_THAT(find_layer("", {{{"", {"R", "G", "B"}}}}, "combined").where, ElementsAre(0, 1, 2));
 }
 
-TEST(PictureLayers, TakeForThePictureWhatARendererCallsSo) {
+TEST(PictureLayers, KnowEachRenderersNameOfThePicture) {
   EXPECT_THAT(find_layer("", kCycles, "").where, ElementsAre(0, 1, 2));
   auto two = kCycles;
   for (const char* channel : {"Other.Combined.R", "Other.Combined.G", "Other.Combined.B"})

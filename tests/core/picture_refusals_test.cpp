@@ -120,7 +120,7 @@ void write_deep_exr(const std::filesystem::path& path, bool with_flat) {
   part.writePixels(1);
 }
 
-TEST_F(Refusals, NameThePartOfADeepExrAndWhatToDo) {
+TEST_F(Refusals, NameThePartOfADeepExr) {
   const auto path = directory_.path() / "a.exr";
   write_deep_exr(path, false);
   EXPECT_THAT(refusal(path), HasSubstr("it is deep: a pixel has any number of samples; flatten it "
@@ -130,7 +130,7 @@ TEST_F(Refusals, NameThePartOfADeepExrAndWhatToDo) {
   EXPECT_EQ(read_picture(path, "flat").image.pixel(1, 0)[2], 0.25f) << "the other part is flat";
 }
 
-TEST_F(Refusals, MeetAnExrThatClaimsMoreThanItHasBeforeOpenExrDoes) {
+TEST_F(Refusals, MeetAnExrWithTooLargeAClaim) {
   const auto box = window(0, 0, 1, 1);
   const ExrPart part{"one", box, box, {{"Y", {1}}}}, other{"two", box, box, {{"Y", {1}}}};
   for (const auto& parts : {std::vector{part}, std::vector{part, other}}) {

@@ -250,7 +250,7 @@ TEST_F(PlainPicture, LeavesAllElseToOpenImageIo) {
   EXPECT_EQ(read_image(file("bomb.png", bomb)).width(), 1) << "by OpenImageIO";
 }
 
-TEST(PngCodes, AreReadFromWhatThisProgramWritesAndFromNothingThatIsDamaged) {
+TEST(PngCodes, AreReadOnlyFromOurOwnSoundFiles) {
   DisplayImage image{37, 23, {}};
   for (int i = 0; i < 3 * 37 * 23; ++i) image.rgb.push_back(std::uint8_t(i * i / 7));
   const std::string file = png_bytes(image, {{"Software", "a test"}});

@@ -83,7 +83,7 @@ TEST(Process, IsNotTakenForHangingWhileItTalksOrWrites) {
   EXPECT_TRUE(reads.get());
 }
 
-TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrensAndNotOurs) {
+TEST(Process, CountsTheTimeOfItsChildren) {
   // Our peak is not theirs, though the kernel hands it on to each program that is started.
   ASSERT_NE(std::string(256 << 20, 'x'), "");
   const auto idle = run_process(shell("sleep 0.3"), {});
@@ -100,7 +100,7 @@ TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrensAndNotOurs) {
   EXPECT_LT(idle.peak_memory_bytes, 67108864u);
 }
 
-TEST(Process, ReadsWhatItIsGivenAndNothingOtherwise) {
+TEST(Process, ReadsOnlyItsGivenInput) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
   ASSERT_EQ(::write(ends[1], "words\n", 6), 6);

@@ -167,7 +167,7 @@ void fill(const fs::path& top, std::mt19937& random, int depth, const fs::path& 
   }
 }
 
-TEST_F(RemovalTest, ADryRunTellsExactlyWhatGoesAndTakesNothing) {
+TEST_F(RemovalTest, ListsTheSameEntriesInADryRun) {
   std::mt19937 random(19);
   std::size_t told = 0;
   for (int round = 0; round < 40; ++round) {
@@ -228,7 +228,7 @@ class NoOpenFiles {
   rlimit before_{};
 };
 
-TEST_F(RemovalTest, TakesNothingForMissingOrEmptyThatTooManyOpenFilesHide) {
+TEST_F(RemovalTest, ReportsTooManyOpenFiles) {
   fs::create_directories(root() / "tree" / "inner");
   const HeldDirectory held(root());
   Removal all = removal();
@@ -273,7 +273,7 @@ class DeadTemporaries : public testing::Test {
   const TemporaryDirectory place_;
 };
 
-TEST_F(DeadTemporaries, GoThoughTheyAreEmptyAndOnlyIfTheyAreOursAndNobodyHoldsThem) {
+TEST_F(DeadTemporaries, GoIfTheyAreOursWithoutAHolder) {
   const fs::path place = place_.path();
   const TemporaryDirectory outside;
   write_file(outside.path() / "precious", "x");

@@ -12,7 +12,7 @@ using testing::Eq;
 
 class ReplacementTest : public Replacements {};
 
-TEST_F(ReplacementTest, AllFilesAreReplacedKeepTheirModeAndArePutBack) {
+TEST_F(ReplacementTest, KeepsTheModesOfReplacedFiles) {
   for (const bool without_links : {false, true}) {
     SCOPED_TRACE(without_links ? "without hard links" : "with hard links");
     faults::no_hard_links = without_links;
@@ -57,7 +57,7 @@ TEST_F(ReplacementTest, AKillAtAnyCallLeavesAllFilesOldOrAllNew) {
   }
 }
 
-TEST_F(ReplacementTest, ACallThatFailsLeavesAllFilesOldOrAllNew) {
+TEST_F(ReplacementTest, LeavesAllFilesOldOrAllNewAfterAFailure) {
   for (const Kind kind : {Kind::kOnce, Kind::kFromThenOn}) {
     int call = 1;
     for (bool failed = true; failed && call < kMostCalls && !HasFailure(); ++call) {
@@ -86,7 +86,7 @@ TEST_F(ReplacementTest, ACallThatFailsLeavesAllFilesOldOrAllNew) {
   }
 }
 
-TEST_F(ReplacementTest, AnUndoThatIsKilledOrFailsIsFinishedByTheNextLook) {
+TEST_F(ReplacementTest, FinishesAnInterruptedUndoAtTheNextLook) {
   for (const Kind kind : {Kind::kKill, Kind::kOnce, Kind::kFromThenOn}) {
     int call = 1;
     for (bool reached = true; reached && call < kMostCalls && !HasFailure(); ++call) {
@@ -111,7 +111,7 @@ TEST_F(ReplacementTest, AnUndoThatIsKilledOrFailsIsFinishedByTheNextLook) {
   }
 }
 
-TEST_F(ReplacementTest, NothingIsReplacedIfAFileIsNotWhatWasCompared) {
+TEST_F(ReplacementTest, ReplacesNothingAfterAChangeOfAFile) {
   const auto expect_refused = [&](const std::string& name) {
     SCOPED_TRACE(name);
     const Texts before = texts();

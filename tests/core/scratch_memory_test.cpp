@@ -29,7 +29,7 @@ std::size_t kibibytes_of_files_in_memory() {
   return 0;
 }
 
-TEST_F(ScratchMemory, IsZeroAndKeepsWhatWasWrittenThoughNothingStaysInMemory) {
+TEST_F(ScratchMemory, KeepsItsContentOutsideOfMemory) {
   for (const std::size_t bytes : {kSmall - 1, kSmall, kSmall + 1, 7 * kSmall + 12345}) {
     Memory memory(bytes);
     EXPECT_EQ(std::count(memory.begin(), memory.end(), 0), std::ptrdiff_t(bytes));
@@ -39,7 +39,7 @@ TEST_F(ScratchMemory, IsZeroAndKeepsWhatWasWrittenThoughNothingStaysInMemory) {
   }
 }
 
-TEST_F(ScratchMemory, HoldsWhatIsASixteenthOfAPictureWhileThePictureIsThere) {
+TEST_F(ScratchMemory, HoldsSmallPiecesBesideALargePicture) {
   keep_large_pieces_in_files(16 * kSmall);
   const auto leaves_memory = [] {
     const Memory part(kSmall, 1);

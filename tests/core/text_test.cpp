@@ -4,7 +4,7 @@
 namespace lobelia {
 namespace {
 
-TEST(Suggestions, FindTheWordThatWasMeantAndNothingFarOff) {
+TEST(Suggestions, FindOnlySimilarWords) {
   constexpr std::string_view kWords[] = {"cosine", "cs16", "schlick"};
   EXPECT_EQ(closest("cosin", kWords), "cosine");
   EXPECT_EQ(closest("cs61", kWords), "cs16");
@@ -44,7 +44,7 @@ TEST(ShellQuoting, LeavesPlainWordsAndQuotesTheRest) {
   EXPECT_EQ(shell_quote("it's $HOME"), "'it'\\''s $HOME'");
 }
 
-TEST(PrintableText, IsShortAndEscapesWhatATerminalWouldObey) {
+TEST(PrintableText, EscapesTerminalCommands) {
   EXPECT_EQ(printable("a\x1b[31m\n\t\r\x7f"), "a\\x1b[31m\\n\\t\\r\\x7f");
   EXPECT_EQ(printable("\xC2\x9B"
                       "31m"),
@@ -83,7 +83,7 @@ TEST(EscapedUtf8, KeepsTwoNamesApartThatReplacementWouldMakeOne) {
   EXPECT_EQ(valid_utf8("a\xFF"), valid_utf8("a\xFE"));
 }
 
-TEST(ValidUtf8, KeepsWhatIsValidAndReplacesEachByteThatIsNot) {
+TEST(ValidUtf8, ReplacesEachInvalidByte) {
   const std::string replaced = "\xEF\xBF\xBD";
   EXPECT_EQ(valid_utf8(""), "");
   EXPECT_EQ(valid_utf8("a\xC3\xA9\xE2\x82\xAC\xF0\x9F\x8C\x88"),
@@ -107,7 +107,7 @@ TEST(CsvField, IsInQuotesOnlyWhereItHasToBe) {
   EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
 }
 
-TEST(CsvField, ATextThatASpreadsheetWouldRunBeginsWithAnApostrophe) {
+TEST(CsvField, PutsAnApostropheBeforeFormulas) {
   EXPECT_EQ(csv_field("=HYPERLINK(\"http://x\",1).exr"), "\"'=HYPERLINK(\"\"http://x\"\",1).exr\"");
   for (const char* text :
        {"=1+1", "+a", "-a", "@SUM(A1)", "\t=1", "-1+cmd|' /C calc'!A0", "+1.exr"})

@@ -44,14 +44,14 @@ TEST_F(ChunkTest, MakesTheVeryResultsThatTheFarmWouldMake) {
   EXPECT_EQ(farm.pass, 2u);
 }
 
-TEST_F(ChunkTest, LeavesAloneWhatHasNoInputs) {
+TEST_F(ChunkTest, SkipsJobsWithoutInputs) {
   const ChunkSummary done = exec_chunk(chunk(two(), kTheRest), 1, kLeave);
   EXPECT_EQ(done.jobs, 4u);
   EXPECT_EQ(done.done, 0u);
   EXPECT_EQ(done.failed, 0u) << "the next round has it";
 }
 
-TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
+TEST_F(ChunkTest, ComparesTheRemainingPictures) {
   const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
   FarmOptions options;
   options.attempts = 1;
@@ -95,7 +95,7 @@ TEST_F(ChunkTest, HandsBackTheChunkOfAnotherMachineUndone) {
   EXPECT_EQ(exec_chunk(file, 1, kLeave).done, 8u);
 }
 
-TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
+TEST_F(ChunkTest, HandsBackJobsOfAnotherEngine) {
   const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
   FarmOptions options;
   options.programs = {{"povray", failing_povray()}};

@@ -52,7 +52,7 @@ TEST(DraftName, SaysItsMakerAndIsReadStrictly) {
   EXPECT_FALSE(DraftName::parse(good + std::string(300, '0')));
 }
 
-TEST(DraftName, TellsTheLivingFromTheDeadOfThisMachineAndNothingOfOthers) {
+TEST(DraftName, TellsLivingOwnersFromDeadOnes) {
   const ProcessIdentity self = this_process();
   EXPECT_EQ(life_of(self, self), Life::kAlive);
   const auto with = [&](const auto& change) {

@@ -21,7 +21,7 @@ class FarmWithEngines : public FarmTest {
   }
 };
 
-TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
+TEST_F(FarmWithEngines, AgreesWithBothEnginesInEveryCell) {
   Grid real = grid("16, 1024", "<engine name=\"povray\"/><engine name=\"blender\"/>");
   // At n = 1024 a smaller picture has its peak between two pixels, and a share of it means little.
   real.scene.film = {128, 128};

@@ -20,7 +20,7 @@ class WithoutPrograms {
   std::string path_ = std::getenv("PATH");
 };
 
-TEST_F(FarmTest, SealsEveryCellWithTheHashesOfItsFilesAndSealsAnOldOneAgain) {
+TEST_F(FarmTest, SealsEveryCellWithTheHashesOfItsFiles) {
   const Grid one = grid("16", "<engine name=\"analytic\"/>");
   run_farm(one, out(), {});
   const std::string sealed = read_file(in_cell("n16", "cell.json"), 1 << 20);
@@ -60,7 +60,7 @@ TEST_F(FarmTest, HoldsEveryCellToTheFormulasPerPixelWithoutAnyProgram) {
   EXPECT_EQ(read_json(in_cell("n16", "analytic.json"))["witness"], "analytic");
 }
 
-TEST_F(FarmTest, SaysWhyAnEngineCannotShowACellAndJudgesAnAverageByItsNoise) {
+TEST_F(FarmTest, ExplainsCellsBeyondAnEngine) {
   // Beside the grid, for a file's name on an axis ends at a blank.
   for (const char* scene : {"mirrors.xml", "area_light.xml"})
     fs::copy_file(fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes" / "scenes" / "effects" / scene,
@@ -106,7 +106,7 @@ TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
             read_file(in_cell("n16", "lobelia.exr"), 1 << 24));
 }
 
-TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
+TEST_F(FarmTest, MakesOnlyMissingResultsInASecondRun) {
   run_farm(grid("16, 32"), out(), {});
   const auto before = fs::last_write_time(in_cell("n16", "lobelia.exr"));
   FarmSummary summary = run_farm(grid("16, 32"), out(), {});
@@ -130,7 +130,7 @@ TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
   EXPECT_EQ(fs::last_write_time(in_cell("n16", "lobelia.exr")), before);
 }
 
-TEST_F(FarmTest, NothingIsMadeTwiceInWhateverGridAndDirectoryItStands) {
+TEST_F(FarmTest, MakesNothingTwiceAcrossGrids) {
   FarmOptions options;
   options.cache = directory_.path() / "cache";
   run_farm(grid("16, 32"), out(), options);
@@ -171,7 +171,7 @@ TEST_F(FarmTest, DoesOnlyTheJobsThatAFilterPicks) {
   EXPECT_EQ(run_farm(two, out(), {}).pass, 2u);
 }
 
-TEST_F(FarmTest, WarnsOfAFilterThatPicksNoJobOfTheGridAndOfNoOther) {
+TEST_F(FarmTest, WarnsOnlyOfAFilterWithoutJobs) {
   const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
   FarmOptions options;
   options.filter = JobFilter("n99*");
@@ -187,7 +187,7 @@ TEST_F(FarmTest, WarnsOfAFilterThatPicksNoJobOfTheGridAndOfNoOther) {
   }
 }
 
-TEST_F(FarmTest, APlanNamesEveryJobThatIsThenDoneAndWhy) {
+TEST_F(FarmTest, PlansEveryJobWithItsReason) {
   const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
   std::map<std::string, std::string> jobs;
   const auto plan = [&](const Grid& g, const FarmOptions& options = {}) {
@@ -213,7 +213,7 @@ TEST_F(FarmTest, APlanNamesEveryJobThatIsThenDoneAndWhy) {
   EXPECT_EQ(plan(two, options).wanted, 2u);
 }
 
-TEST_F(FarmTest, ASceneWithNothingInItAndOneThatIsAlmostBlackAreCellsToo) {
+TEST_F(FarmTest, MakesCellsOfEmptyOrAlmostBlackScenes) {
   Grid empty = grid("16");
   empty.scene.spheres.clear();
   empty.scene.materials.clear();
@@ -239,7 +239,7 @@ TEST_F(FarmTest, AgainMakesEverythingAgain) {
   EXPECT_EQ(run_farm(grid("16"), out(), options).rendered, 1u);
 }
 
-TEST_F(FarmTest, ADirectoryThatCannotBeWrittenIsSaidBeforeAnythingIsRendered) {
+TEST_F(FarmTest, ReportsAReadOnlyDirectoryUpFront) {
   write_file(directory_.path() / "file", "x");
   const auto run = [&] { run_farm(grid("16"), directory_.path() / "file" / "out", {}); };
   EXPECT_EQ(thrown_by(run).code(), ExitCode::kOutput);

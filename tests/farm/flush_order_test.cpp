@@ -5,7 +5,7 @@
 namespace lobelia {
 namespace {
 
-TEST_F(FarmTest, GivesNoResultAndNoCellItsNameBeforeItIsFlushed) {
+TEST_F(FarmTest, FlushesEachResultBeforeItsName) {
   const Grid some = grid("16, 32", "<engine name=\"analytic\"/>");
   const unflushed::Watch watch;
   EXPECT_EQ(run_farm(some, out(), {}).cells, 2u);

@@ -56,7 +56,7 @@ const std::vector<Choices> kCatalogue = {
 
 Values values_of(const Cell& cell) { return {cell.axes.begin(), cell.axes.end()}; }
 
-TEST(CellsOfEveryGrid, AreTheProductWithoutWhatIsExcludedThenWhatIsIncluded) {
+TEST(CellsOfEveryGrid, AreTheProductWithExclusionsPlusInclusions) {
   ASSERT_FALSE(kCatalogue.empty());
   for (const auto& grid : kCatalogue) {
     std::vector<Values> expected;
@@ -79,7 +79,7 @@ TEST(CellsOfEveryGrid, AreTheProductWithoutWhatIsExcludedThenWhatIsIncluded) {
   }
 }
 
-TEST(CellsOfEveryGrid, HaveIdsOfTheirOwnThatAreSafeFileNamesAndStayTheSame) {
+TEST(CellsOfEveryGrid, HaveStableUniqueIdsForFileNames) {
   for (const auto& entry : kCatalogue) {
     const Grid grid = grid_of(entry.product + entry.choices);
     const auto cells = cells_of(grid), again = cells_of(grid_of(entry.product + entry.choices));

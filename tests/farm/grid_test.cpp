@@ -49,7 +49,7 @@ TEST(Grid, LeavesTheFilterToTheScene) {
   EXPECT_EQ(film.filter, find_filter("tent"));
 }
 
-TEST(GridFormat, ItsExamplesAreReadAndHaveAsManyCellsAsItSays) {
+TEST(GridFormat, HasExamplesWithTheStatedNumberOfCells) {
   const std::string page =
       read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/grid_format.md", 1 << 20);
   std::vector<std::size_t> counts;
@@ -67,7 +67,7 @@ TEST(GridFormat, ItsExamplesAreReadAndHaveAsManyCellsAsItSays) {
   EXPECT_THAT(page, testing::HasSubstr(std::to_string(kMaxCells) + " cells together"));
 }
 
-TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
+TEST(GridReader, ExplainsEveryError) {
   const std::pair<const char*, const char*> bad[] = {
       {"<axis name=\"modle\" values=\"a\"/>",
        "unknown axis 'modle'; allowed: scene, model, lobe, normalisation, exponent, light, samples, "
@@ -124,7 +124,7 @@ TEST(GridReader, TakesOnlyAnAddressOfTheWebForThatOfAStudy) {
                 testing::HasSubstr("allowed: an address that begins with https://"));
 }
 
-TEST(GridReader, SaysOfEveryWrongChoiceWhatIsThere) {
+TEST(GridReader, ListsTheChoicesForAWrongOne) {
   const std::string axes = kScene + axis("model", "phong_rdf, modified_phong, blinn_phong_rdf") +
                            axis("exponent", "16, 128");
   const std::pair<const char*, const char*> bad[] = {
@@ -161,7 +161,7 @@ TEST(GridReader, SaysOfEveryWrongChoiceWhatIsThere) {
               testing::HasSubstr("the <exclude> matches no cell: the values never stand together"));
 }
 
-TEST(GridReader, SaysOfEveryWrongListAndPairOfAxesWhatIsAllowed) {
+TEST(GridReader, ListsAllowedValuesForEveryWrongAxis) {
   const std::pair<std::string, const char*> bad[] = {
       {"<list/>" + axis("size", "8"), "the <list> has no <axis>"},
       {"<list name=\"a\">" + axis("size", "8") + "</list>", "<list> has no attribute 'name'"},
@@ -223,7 +223,7 @@ TEST(GridReader, TellsNamesInOtherAlphabetsApart) {
   EXPECT_EQ(cells[2].id, "___");
 }
 
-TEST(GridReader, BoundsWhatAHostileFileAsksFor) {
+TEST(GridReader, BoundsTheSizeOfAHostileGrid) {
   EXPECT_THAT(error_of(kScene + axis("exponent", numbers(10001))),
               testing::HasSubstr("over 10000 values on the axis 'exponent'; allowed: 10000"));
   std::string exclude;

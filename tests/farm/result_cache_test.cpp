@@ -34,7 +34,7 @@ class ResultCacheTest : public testing::Test {
   const ResultKey key_ = result_key({"a", "result"}), other_ = result_key({"another"});
 };
 
-TEST_F(ResultCacheTest, GivesBackWhatWasPublishedAndNothingElse) {
+TEST_F(ResultCacheTest, GivesBackPublishedResultsOnly) {
   const ResultCache cache(path());
   EXPECT_FALSE(cache.find(key_));
   EXPECT_EQ(publish(cache, key_, "pixels"), Publication::kNew);

@@ -16,7 +16,7 @@ class UpkeepTest : public FarmTest {
   fs::path cache() const { return out() / "cache"; }
 };
 
-TEST_F(UpkeepTest, VerifyOpensWhatItsHashSaysIsWhole) {
+TEST_F(UpkeepTest, OpensFilesWithASoundHash) {
   // As a program that publishes rubbish would leave it.
   const ResultCache results(cache());
   ResultDraft draft = results.draft();
@@ -50,7 +50,7 @@ TEST_F(UpkeepTest, GarbageGoesFromTheLeastUsedUntilTheRestFits) {
   EXPECT_EQ(run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {}).work.made, 8u);
 }
 
-TEST_F(UpkeepTest, AFarmUsesWhatItTouchesSoThatGarbageIsSomethingElse) {
+TEST_F(UpkeepTest, MarksResultsAsUsedByAFarm) {
   const ResultCache results(cache());
   const auto old = fs::last_write_time(cache()) - std::chrono::hours(1000);
   for (const auto& key : results.list()) fs::last_write_time(results.result_directory(key), old);
@@ -61,7 +61,7 @@ TEST_F(UpkeepTest, AFarmUsesWhatItTouchesSoThatGarbageIsSomethingElse) {
   EXPECT_EQ(used, 4u);
 }
 
-TEST_F(UpkeepTest, CleanTakesAwayWhatFailedJobsLeft) {
+TEST_F(UpkeepTest, CleansFilesOfFailedJobs) {
   const fs::path failed = out() / FailedJobs::kName;
   FarmOptions options;
   options.attempts = 1;
@@ -80,7 +80,7 @@ TEST_F(UpkeepTest, CleanTakesAwayWhatFailedJobsLeft) {
   EXPECT_THAT(report.stays, testing::Contains(testing::HasSubstr("failed")));
 }
 
-TEST_F(UpkeepTest, StatusTellsWhatHasBecomeOfEachCell) {
+TEST_F(UpkeepTest, PrintsTheStatusOfEachCell) {
   Json status = as_json(farm_status(out()));
   EXPECT_EQ(status.at("cells"), 2);
   EXPECT_EQ(status.at("status").at("pass"), 2);

@@ -81,7 +81,7 @@ TEST(HalfPicture, HasItsLargestValueInRangeHoweverBrightOrDarkItIs) {
   }
 }
 
-TEST(HalfPicture, KeepsWhatIsNotFinite) {
+TEST(HalfPicture, KeepsNonfiniteValues) {
   Image image = noise(5, 4, 2);
   image.pixel(1, 1)[0] = std::numeric_limits<float>::infinity();
   image.pixel(2, 1)[1] = -std::numeric_limits<float>::infinity();
@@ -96,7 +96,7 @@ TEST(HalfPicture, KeepsWhatIsNotFinite) {
   }
 }
 
-TEST(HalfPicture, LeavesOutWhatIsUnderTheLeastThatItNames) {
+TEST(HalfPicture, OmitsValuesBelowItsLeast) {
   const Image image = noise(64, 64, 6);
   const records::PackedPicture coarse = half_picture(image, -2);
   EXPECT_NEAR(coarse.least, std::ldexp(1, -10), 2e-5);
@@ -106,7 +106,7 @@ TEST(HalfPicture, LeavesOutWhatIsUnderTheLeastThatItNames) {
   EXPECT_EQ(half_picture(image, 1).least, 0);
 }
 
-TEST(HalfPicture, IsShorterTheCoarserItIsAndShortWhereThePictureIsSmooth) {
+TEST(HalfPicture, IsShorterIfCoarserOrSmoother) {
   const Image rough = noise(128, 128, 5);
   std::size_t before = half_picture(rough, kFinest).planes.size();
   for (int precision = kFinest - 1; precision >= kCoarsest; --precision) {

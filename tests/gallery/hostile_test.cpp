@@ -88,7 +88,7 @@ TEST(HostileRecords, AreRefusedByNameForAnIdThatLeadsElsewhere) {
   }
 }
 
-TEST(HostileRecords, MakeACellUnreadableByAFileNameThatLeadsElsewhere) {
+TEST(HostileRecords, MakeACellUnreadableByAForeignPath) {
   const std::vector<std::pair<std::string, std::string* (*)(records::Cell&)>> places = {
       {"images[0].png", [](records::Cell& cell) { return &cell.images[0].png; }},
       {"images[0].exr", [](records::Cell& cell) { return &cell.images[0].exr; }},

@@ -145,7 +145,7 @@ TEST(Thumbnail, IsGreyWhereItIsBlackAndNoSurfaceIs) {
   EXPECT_EQ(image->pixel(90, 50)[0], 1) << "light that is there stays";
 }
 
-TEST(Thumbnail, EnlargesASmallHighlightInTheFarthestCornerAndNoLargeOne) {
+TEST(Thumbnail, EnlargesOnlySmallHighlights) {
   for (const auto& [x, y] : {std::pair(20, 20), {90, 20}, {20, 90}, {90, 90}}) {
     const FakeFarm farm;
     put_highlight(farm, x, y, 6);

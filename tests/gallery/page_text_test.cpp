@@ -23,7 +23,7 @@ TEST(PageText, SetsFormulasAsTheyArePrinted) {
   for (const auto& [record, page] : cases) EXPECT_EQ(math_text(record), page);
 }
 
-TEST(PageText, RaisesWhatUnicodeCannot) {
+TEST(PageText, RaisesExponentsByMarkup) {
   Html html;
   write_math(html, "2^(-n/2) < theta_cr");
   EXPECT_EQ(html.str(), "2<sup>−n/2</sup> &lt; θ<sub>cr</sub>");

@@ -20,7 +20,7 @@ CheckedComparison compared(double worst) {
   return comparison;
 }
 
-TEST(Story, NamesTheLargestDifferenceItsPlaceAndTheRoundingOfHalfFloats) {
+TEST(Story, NamesTheLargestDifferenceWithItsPlace) {
   EXPECT_EQ(story_of(compared(0.00041), "POV-Ray"),
             "Largest difference 0.041 % of the peak at (156, 99): POV-Ray writes half floats, "
             "whose rounding is 0.049 % of the value; 0.001 % of the peak is allowed for "
@@ -47,7 +47,7 @@ TEST(Story, TellsEdgesFromPixelsWithoutAKnownCause) {
   EXPECT_THAT(story_of(comparison, "POV-Ray"), HasSubstr("The record does not say why."));
 }
 
-TEST(Story, SaysNothingOfWhatCannotBeTrusted) {
+TEST(Story, OmitsUntrustedFigures) {
   CheckedComparison comparison = compared(0.00041);
   comparison.doubt = CellStatus::kDamaged;
   EXPECT_EQ(story_of(comparison, "POV-Ray"), "");
@@ -56,7 +56,7 @@ TEST(Story, SaysNothingOfWhatCannotBeTrusted) {
   EXPECT_THAT(story_of(comparison, "POV-Ray"), HasSubstr("7 values are NaN or infinite"));
 }
 
-TEST(FirstScreen, SaysWhatCameOutAndLinksTheFarthestCell) {
+TEST(FirstScreen, LinksTheFarthestCell) {
   const FakeFarm farm;
   farm.change<records::Comparison>(FakeFarm::kDiffers, "lobelia-povray.json",
                                    [](records::Comparison& comparison) {
@@ -78,7 +78,7 @@ TEST(FirstScreen, SaysWhatCameOutAndLinksTheFarthestCell) {
               HasSubstr("Farthest beyond its limit"));
 }
 
-TEST(FirstScreen, CountsTheCellsThatPassAndThatDiffer) {
+TEST(FirstScreen, CountsCellsByVerdict) {
   for (const auto& [pass, differ, sentence] :
        {std::tuple(1, 0, "All 1 highlights agree with POV-Ray, "),
         {3, 0, "All 3 highlights agree with POV-Ray, "},

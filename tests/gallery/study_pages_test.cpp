@@ -82,7 +82,7 @@ TEST_F(CostPage, IsThereWithAChartOfEveryVariantThatHasAnError) {
   EXPECT_EQ(site.page("index.html").select_nodes("//nav//a[@href='cost.html']").size(), 1u);
 }
 
-TEST_F(CostPage, SaysWhatTheFrontSaysAndHowItWasMeasured) {
+TEST_F(CostPage, ExplainsTheFrontWithItsMeasurement) {
   const std::string text = put(cost_record());
   EXPECT_THAT(text, HasSubstr("from cs16 to cosine: 2.0 times the time"));
   EXPECT_THAT(text, HasSubstr("a remark &amp; more"));
@@ -91,7 +91,7 @@ TEST_F(CostPage, SaysWhatTheFrontSaysAndHowItWasMeasured) {
   EXPECT_THAT(text, HasSubstr("1.00 ns"));
 }
 
-TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
+TEST_F(CostPage, ShowsCountsWithoutTimes) {
   records::Cost record = cost_record();
   record.tables[0].unit = "bit operations";
   for (records::CostVariant& one : record.tables[0].variants) {
@@ -133,7 +133,7 @@ TEST_F(CostPage, NumbersEveryPointOfACrowdedChartOfAPhone) {
   EXPECT_GE(page.select_nodes("//div[@class='narrow']//*[@class='point-name']").size(), 70u);
 }
 
-TEST_F(CostPage, HasNoChartOfOnePointAndSaysWhatOneRunTells) {
+TEST_F(CostPage, HasNoChartForOnePoint) {
   records::Cost record = cost_record();
   std::vector<records::CostVariant>& variants = record.tables[0].variants;
   variants.resize(1);
@@ -147,7 +147,7 @@ TEST_F(CostPage, HasNoChartOfOnePointAndSaysWhatOneRunTells) {
   EXPECT_THAT(text, Not(HasSubstr("± 0 %")));
 }
 
-TEST_F(CostPage, HasAFindingAndTitlesAndPublishesNoDrawingOfTheRun) {
+TEST_F(CostPage, PublishesNoDrawingOfTheRun) {
   records::Cost record = cost_record();
   record.tables[0].variants[1].errors = {{"max", 0}};
   record.command = {"lobelia", "cost", "/srv/someone/scene.xml"};
@@ -213,7 +213,7 @@ class SearchPage : public StudyPage {
   }
 };
 
-TEST_F(SearchPage, HasAChartForTheRangeAndForEachExponentAndShowsTheFirstWithoutAScript) {
+TEST_F(SearchPage, ShowsItsFirstChartWithoutAScript) {
   write("search/pk3.2.glsl", "float lobe;");
   put(search_record());
   const Site site(farm_.directory());
@@ -279,7 +279,7 @@ class BenchPage : public StudyPage {
   }
 };
 
-TEST_F(BenchPage, ShowsTheLastRunAndEachGoalOverAllThatHaveIt) {
+TEST_F(BenchPage, ShowsTheLastRunWithTheHistoryOfEachGoal) {
   records::Bench record{{run_of("abc1", 84), run_of("abc2", 96), run_of("abc3", 112)}};
   record.runs[0].goals.pop_back();
   const std::string text = put(record);

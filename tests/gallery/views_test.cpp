@@ -164,7 +164,7 @@ TEST_P(RecordViews, AreNotThereWithoutTheirRecord) {
   EXPECT_FALSE(std::filesystem::exists(farm_.directory() / page()));
 }
 
-TEST_P(RecordViews, SayThatARecordIsBrokenAndTheGalleryIsThere) {
+TEST_P(RecordViews, ReportABrokenRecordInTheGallery) {
   // Every member in turn of another type, and gone.
   const Json whole = Json::parse(GetParam().record());
   put(GetParam().record());
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(All, RecordViews, ::testing::ValuesIn(kViews),
                          [](const auto& one) { return std::string(one.param.name); });
 
 class StabilityView : public RecordViews {};
-TEST_P(StabilityView, ShowsNumbersMeaningsAndWhatIsNoNumber) {
+TEST_P(StabilityView, ShowsMissingNumbersAsSuch) {
   const std::string text = put(GetParam().record());
   EXPECT_THAT(text, HasSubstr("hard because &amp; why"));
   EXPECT_THAT(text, HasSubstr("no number"));

@@ -212,7 +212,7 @@ class Adding : public testing::Test {
   Scratch tree;
 };
 
-TEST_F(Adding, OneOfEachTakesTheFilesThatContributingNamesAndWorks) {
+TEST_F(Adding, OneOfEachTakesTheFilesListedInContributing) {
   add_lobe(tree.path());
   add_model(tree.path());
   add_metric(tree.path());

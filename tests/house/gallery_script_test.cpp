@@ -40,7 +40,7 @@ class GalleryScript : public ::testing::Test {
   std::string said, calls, told;
 };
 
-TEST_F(GalleryScript, SaysWhereTheGalleryIsAndExitsWithTheWorstFailure) {
+TEST_F(GalleryScript, ExitsWithTheWorstFailure) {
   struct Case {
     const char* what;
     int farm, gallery, cost, exit_code;
@@ -58,7 +58,7 @@ TEST_F(GalleryScript, SaysWhereTheGalleryIsAndExitsWithTheWorstFailure) {
   }
 }
 
-TEST_F(GalleryScript, MakesTheGalleryAfterTheFarmAndAgainWhenAllIsMeasured) {
+TEST_F(GalleryScript, RefreshesTheGalleryAfterMeasurements) {
   EXPECT_EQ(run(0), 0);
   const std::size_t first = calls.find("gallery|"), last = calls.rfind("gallery|");
   EXPECT_LT(calls.find("farm|"), first);

@@ -171,7 +171,7 @@ Problems ways_around_the_gate(const fs::path& root, const std::vector<Allowed>& 
   return problems;
 }
 
-TEST(Gate, AloneDecidesWhatStartsAndWhatIsRead) {
+TEST(Gate, AloneGivesLeave) {
   EXPECT_THAT(ways_around_the_gate(kRoot, allowed_places()), IsEmpty())
       << "If it needs no leave or has it, add a line to allowed_places(), with the reason.";
   for (const Allowed& one : allowed_places()) EXPECT_NE(one.because, "") << one.file;

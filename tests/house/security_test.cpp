@@ -16,7 +16,6 @@ using Places = std::set<std::string>;
 
 using Kinds = std::vector<std::pair<std::string, std::regex>>;
 
-/// The kinds of what a line does by itself.
 const Kinds& kinds() {
   static const Kinds all{
       {"remove", std::regex(R"re(\b(remove_all|unlink|unlinkat|rmdir|rmtree)\s*\(|)re"
@@ -97,7 +96,6 @@ std::string column_of(const std::string& kind) {
   return kind == "start" ? "starts" : kind == "open" ? "reads" : "writes";
 }
 
-/// The table's rows, and its lines with those of its head.
 std::vector<Row> rows_of(const std::string& page, std::size_t& length, Problems& problems) {
   static const std::regex row(R"re(^\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([^|]+) \|$)re"),
       name("`([^`]+)`");
@@ -177,7 +175,7 @@ Problems differences(const fs::path& root, const std::string& page) {
   return problems;
 }
 
-TEST(SecurityPage, SaysInOneTableWhatMayStartReadAndWriteWhat) {
+TEST(SecurityPage, ListsAllPermissionsInOneTable) {
   EXPECT_THAT(differences(kRoot, read(kRoot / "SECURITY.md")), IsEmpty());
   for (const std::string& one : places_in_source(kRoot))
     if (one.ends_with(": remove")) {

@@ -79,7 +79,7 @@ class Setup : public ::testing::Test {
   std::string said;
 };
 
-TEST_F(Setup, SaysAndDoesNothingWhenNothingIsMissing) {
+TEST_F(Setup, DoesNothingWhenNothingIsMissing) {
   installed("compiler\nlibrary\npainter\nsculptor\n");
   write(scratch_ / "quiet", "");
   EXPECT_EQ(run("build engines"), 0);
@@ -95,7 +95,7 @@ TEST_F(Setup, LooksOnlyForThePurposesItIsGiven) {
   EXPECT_EQ(said, "");
 }
 
-TEST_F(Setup, InstallsExactlyWhatIsMissingAndSaysWhyFirst) {
+TEST_F(Setup, InstallsOnlyMissingPackages) {
   installed("compiler\npainter\n");
   EXPECT_EQ(run("build engines"), 0);
   EXPECT_THAT(apt_calls(), ElementsAre("update", "install -y --no-install-recommends library",
@@ -106,7 +106,7 @@ TEST_F(Setup, InstallsExactlyWhatIsMissingAndSaysWhyFirst) {
   EXPECT_THAT(apt_calls(), IsEmpty());
 }
 
-TEST_F(Setup, CountsARemovedPackageThatLeftItsSettingsAsMissing) {
+TEST_F(Setup, CountsARemovedPackageAsMissing) {
   installed("library\n");
   fake("dpkg-query", "echo 'compiler config-files'; echo 'library installed'");
   fake("id", "echo 1000");
@@ -114,7 +114,7 @@ TEST_F(Setup, CountsARemovedPackageThatLeftItsSettingsAsMissing) {
   EXPECT_THAT(said, AllOf(HasSubstr("compiler"), Not(HasSubstr("library"))));
 }
 
-TEST_F(Setup, FailsWithoutPermissionAndNamesPackagesAndCommand) {
+TEST_F(Setup, NamesItsCommandIfPermissionIsMissing) {
   installed("compiler\n");
   fake("id", "echo 1000");
   EXPECT_EQ(run("build engines"), 1);
@@ -136,7 +136,7 @@ TEST_F(Setup, InstallsThroughSudo) {
               ElementsAre("update", "install -y --no-install-recommends compiler library"));
 }
 
-TEST_F(Setup, FailsWithoutAptOrDpkgAndNamesThePackages) {
+TEST_F(Setup, NamesThePackagesWithoutAptOrDpkg) {
   fs::remove(bin() / "apt-get");
   EXPECT_EQ(run("build"), 1);
   EXPECT_THAT(said, AllOf(HasSubstr("no apt-get"), HasSubstr("compiler"), HasSubstr("SETUP=no")));
@@ -145,7 +145,7 @@ TEST_F(Setup, FailsWithoutAptOrDpkgAndNamesThePackages) {
   EXPECT_THAT(said, AllOf(HasSubstr("no dpkg-query"), HasSubstr("library")));
 }
 
-TEST_F(Setup, WarnsOfAnEngineThatCannotBeHadAndInstallsTheOthers) {
+TEST_F(Setup, InstallsTheOtherEnginesIfOneIsUnavailable) {
   installed("compiler\nlibrary\n");
   unavailable("painter\n");
   EXPECT_EQ(run("build engines"), 0);

@@ -17,7 +17,7 @@ Picture highlight(double major, double minor, float peak) {
   return picture;
 }
 
-TEST(Library, TakesTheDefaultLimitsOrOnlyThoseThatAreGiven) {
+TEST(Library, TakesTheDefaultLimitsUnlessTurnedOff) {
   const Picture dim = highlight(8, 8, 1), bright = highlight(8, 8, 1.1f);
   CompareSettings settings;
   settings.limits = {{"max_rel_peak", 0.2}};

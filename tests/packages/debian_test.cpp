@@ -92,7 +92,7 @@ def test_installed(lobelia_compare):
 };
 Scratch* Debian::made = nullptr;
 
-TEST_F(Debian, PackagesDependOnWhatTheyNeed) {
+TEST_F(Debian, DeclaresItsDependencies) {
   for (const char* needed : {"libopenimageio", "libopencolorio", "libembree", "libglpk"})
     EXPECT_THAT(field(library(), "Depends"), HasSubstr(needed)) << "for its modules";
   EXPECT_THAT(field("lobelia", "Depends"), HasSubstr(library() + " (= "));
@@ -137,8 +137,8 @@ TEST_F(Debian, PackagesAreInstalledRunAndPurged) {
   ASSERT_EQ(installed.exit_code, 0) << installed.output;
   for (const char* file :
        {"usr/share/man/man1/lobelia-render.1.gz", "usr/share/bash-completion/completions/lobelia",
-        "usr/include/lobelia/lobelia.hpp", "usr/share/doc/lobelia-doc/copyright",
-        "usr/share/lobelia/schemas/render.schema.json"})
+        "usr/include/lobelia/lobelia.hpp", "usr/include/lobelia/highlight.hpp",
+        "usr/share/doc/lobelia-doc/copyright", "usr/share/lobelia/schemas/render.schema.json"})
     EXPECT_TRUE(fs::exists(root / file)) << file;
 
   // It finds its parts below the test's root. The libraries of others are the machine's.

@@ -95,7 +95,7 @@ class Uninstall : public testing::Test {
   const std::string script = house::quoted(LOBELIA_SOURCE_DIR "/scripts/install") + " ";
 };
 
-TEST_F(Uninstall, LeavesWhatOthersPutThere) {
+TEST_F(Uninstall, LeavesForeignFiles) {
   const Ran ran = uninstall();
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_THAT(files_below(prefix),
@@ -126,7 +126,7 @@ TEST_F(Uninstall, FollowsNoLink) {
   EXPECT_TRUE(fs::is_symlink(prefix / "bin/lobelia"));
 }
 
-TEST_F(Uninstall, RemovesAfterAnUpgradeWhatTheOldVersionHad) {
+TEST_F(Uninstall, RemovesFilesOfTheOldVersion) {
   // A file of an older version, as its list has it.
   write(prefix / "share/lobelia/scenes/old.xml", "old");
   const std::string sum = run("printf old | sha256sum | cut -c -64").output;

@@ -33,7 +33,6 @@ std::set<std::string> options(const std::string& command) {
   return matches(help_of(command), word);
 }
 
-/// The names of every command, "" and "farm status" too.
 std::vector<std::string> all_commands() {
   std::vector<std::string> commands{""};
   for (std::size_t i = 0; i < commands.size(); ++i)

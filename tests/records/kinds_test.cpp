@@ -151,7 +151,6 @@ TEST_P(EveryKind, IsReadBackAsItIs) {
   }
 }
 
-/// Every place of a record, as JSON pointers.
 void list_places(const Json& json, const Json::json_pointer& at,
                  std::vector<Json::json_pointer>& places) {
   if (json.is_object())
@@ -192,7 +191,7 @@ TEST_P(EveryKind, RefusesAnotherTypeAtAnyPlace) {
   EXPECT_GT(refused, 0u);
 }
 
-TEST_P(EveryKind, RefusesToLackWhatItsSchemaRequires) {
+TEST_P(EveryKind, RequiresTheKeysOfItsSchema) {
   const Json good = RandomRecords(GetParam(), 1).record();
   const Json schema = Json::parse(schema_text(GetParam()));
   for (const auto& key : schema["required"]) {
@@ -237,7 +236,7 @@ TEST(Kinds, HavePagesThatTheIndexLinks) {
   }
 }
 
-TEST(Kinds, HaveTheirOwnNamesAndSayWhatTheyAreFor) {
+TEST(Kinds, HaveSortedUniqueNames) {
   std::set<std::string_view> names;
   for (const Kind& kind : kinds()) {
     const Struct& type = kind.type();

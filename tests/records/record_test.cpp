@@ -95,7 +95,7 @@ TEST(Records, NameNumbersThatJsonDoesNotHave) {
   }
 }
 
-TEST(Records, SayWhereSomethingIsWrongAndWhatIsAllowed) {
+TEST(Records, StateThePlaceOfAnErrorWithAllowedValues) {
   EXPECT_EQ(refusal("/parts/1/count", "3"), "r.json: parts[1].count: not an integer");
   EXPECT_EQ(refusal("/parts/1/count", 0.5), "r.json: parts[1].count: not an integer");
   EXPECT_EQ(refusal("/parts/0/count", -1), "r.json: parts[0].count: -1; allowed: at least 0");

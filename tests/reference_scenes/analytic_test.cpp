@@ -72,7 +72,7 @@ TEST(Analytic, AgreesWithUsOnLampsOnSurfacesAndAHairBesideThem) {
                          hall_of_lamps_on_surfaces(aside, scale, away));
 }
 
-TEST(Analytic, GivesTheSamePictureInItsFinerArithmeticButForLastDigits) {
+TEST(Analytic, AgreesWithItsFinerArithmetic) {
   const Scene scene = hall_scene(kChoice, 16);
   ReferenceOptions fine;
   fine.fine = true;

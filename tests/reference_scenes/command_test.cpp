@@ -28,7 +28,7 @@ class ReferenceCommand : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(ReferenceCommand, HasAnExitCodeAndAReasonForWhatItCannotDo) {
+TEST_F(ReferenceCommand, ExplainsEachRefusalWithAnExitCode) {
   struct {
     std::vector<std::string> options;
     int exit_code;
@@ -48,7 +48,7 @@ TEST_F(ReferenceCommand, HasAnExitCodeAndAReasonForWhatItCannotDo) {
   }
 }
 
-TEST_F(ReferenceCommand, KeepsWhatTheEngineIsGiven) {
+TEST_F(ReferenceCommand, KeepsTheInputOfTheEngine) {
   const fs::path kept = directory_.path() / "kept";
   // The engine itself may be missing: what it would be given is written first.
   for (const std::string engine : {"povray", "blender"})

@@ -54,7 +54,7 @@ class EnginesCommand : public testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(EnginesCommand, SaysOfEveryMissingEngineHowToGetItAndEndsWithExitCode5) {
+TEST_F(EnginesCommand, ExplainsHowToGetEachMissingEngine) {
   const auto result = run(programs({}));
   EXPECT_EQ(result.exit_code, 5);
   for (const EngineInfo& engine : engine_infos()) {
@@ -72,7 +72,7 @@ TEST_F(EnginesCommand, SaysOfEveryMissingEngineHowToGetItAndEndsWithExitCode5) {
     EXPECT_THAT(nowhere.output_tail, HasSubstr(": absent: no program '" + needed + "' in $PATH\n"));
 }
 
-TEST_F(EnginesCommand, SaysOfEveryFoundEngineWhereItIsAndItsVersion) {
+TEST_F(EnginesCommand, PrintsTheVersionOfEveryFoundEngine) {
   const auto found = played();
   const auto result = run(programs(found));
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;

@@ -94,7 +94,7 @@ Vec3 unit_vector(int i) {
   return normalize({std::sin(1 + 7.0 * i), std::sin(2 + 11.0 * i), std::sin(3 + 13.0 * i)});
 }
 
-TEST(Evaluation, ALampInAPlaneLightsBothItsSidesAndOneAHairAsideItsOwn) {
+TEST(Evaluation, LightsBothSidesOfAPlaneWithALampInIt) {
   int before = 0, behind = 0;
   for (const auto& [scale, away] : kPlaces)
     for (int i = 0; i < 50; ++i) {
@@ -200,7 +200,7 @@ TEST(EdgeRing, HasTheShadowsEdgeOfASphereAndOfAPlaneOutOfSight) {
   EXPECT_GT(ring_size(scene), 8);
 }
 
-TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
+TEST(EdgeRing, HasSilhouettesSeenInMirrors) {
   Scene scene = plane_scene();
   scene.lights.clear();
   scene.materials.push_back(mirror(1));
@@ -227,7 +227,7 @@ TEST(EdgeRing, RunsAboutTheSilhouetteOfASphereLitFromTheCamera) {
   EXPECT_GT(std::count(edges.begin(), edges.end(), 1), int(2 * 3.14 * radius));
 }
 
-TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
+TEST(Evaluation, RefusesUnknownInputInWords) {
   const auto refuses = [](const char* word, auto change) {
     Scene scene = hall_scene(kPhong, 8);
     ASSERT_EQ(truth::why_not_evaluated(scene), "");

@@ -80,13 +80,13 @@ class FakeEngine : public testing::TestWithParam<std::string> {
   TemporaryDirectory directory_;
 };
 
-TEST_P(FakeEngine, SaysThatItIsMissingOrAnotherProgram) {
+TEST_P(FakeEngine, ReportsAMissingOrWrongProgram) {
   EXPECT_THAT(unavailable_because(directory_.path() / "nothing"), HasSubstr("is not a program"));
   EXPECT_THAT(unavailable_because(program("", "GNU grep 3.8")),
               HasSubstr("does not answer --version"));
 }
 
-TEST_P(FakeEngine, IsRefusedWithItsVersionAndThoseThatCanBeDriven) {
+TEST_P(FakeEngine, IsRefusedWithTheSupportedVersions) {
   const bool povray = GetParam() == "povray";
   const std::string answer = povray ? "POV-Ray " : "Blender ";
   for (const std::string version :
@@ -122,7 +122,7 @@ TEST_P(FakeEngine, IsStartedAgainIfItsThreadsWereTooSlowToStart) {
               HasSubstr("stopped with exit code 1: Timed out waiting"));
 }
 
-TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsClassAndItsLogAndNothingElses) {
+TEST_P(FakeEngine, FailureBelongsToItsSceneAlone) {
   const auto picture = [&](const std::string& name, int height, float first) {
     Image image(16, height);
     // Noise, which no compression makes so small that a part of the file has it all.
@@ -308,7 +308,7 @@ done)sh",
   }
 };
 
-TEST_P(FakeBlender, RendersManyScenesInFewProcessesAndTellsWhatEachTook) {
+TEST_P(FakeBlender, RendersManyScenesInFewProcesses) {
   auto results = results_of(goes_on("sleep 0.02"), 40);
   std::size_t first_ones = 0;
   for (const auto& [scene, result] : results) {
@@ -327,7 +327,7 @@ TEST_P(FakeBlender, RendersManyScenesInFewProcessesAndTellsWhatEachTook) {
   EXPECT_THAT(first_ones, testing::AllOf(testing::Ge(1u), testing::Le(2u)));
 }
 
-TEST_P(FakeBlender, CostsOneSceneWhenItDiesAndGoesOnInANewProcess) {
+TEST_P(FakeBlender, CostsOneSceneWhenItDies) {
   // In the middle of a scene; and between two, when the next is in nobody's hands.
   std::map<FailureClass, int> ends;
   for (const auto& [scene, result] :

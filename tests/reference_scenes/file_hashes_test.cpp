@@ -66,7 +66,7 @@ TEST_F(FileHashesTest, SeesEveryChange) {
   EXPECT_EQ(hashes.hash(file).sha256, hex(sha256("two")));
 }
 
-TEST_F(FileHashesTest, RefusesWhatIsNoFileAndDoesWithoutAMemory) {
+TEST_F(FileHashesTest, WorksWithoutAMemory) {
   FileHashes hashes("/proc/no/such/place/hashes.json");
   EXPECT_THROW(hashes.hash(directory_.path()), Error);
   EXPECT_THROW(hashes.hash("/no/such/file"), Error);
@@ -91,7 +91,7 @@ class ContentTest : public FileHashesTest {
   }
 };
 
-TEST_F(ContentTest, IsOfContentAndNamesAndNotOfPlacesAndOrder) {
+TEST_F(ContentTest, IsIndependentOfPathsOrTheirOrder) {
   FileHashes hashes{fs::path()};
   const auto content = [&](const std::vector<std::pair<std::string, fs::path>>& libraries) {
     ContentReader reader(hashes);
@@ -117,7 +117,7 @@ TEST_F(ContentTest, IsNotMadeOfAFileThatAFaultHides) {
   EXPECT_EQ(reader.content().files.size(), 2u);
 }
 
-TEST_F(ContentTest, SaysWhatIsWrongWithAHugeFile) {
+TEST_F(ContentTest, ExplainsTheRefusalOfAHugeFile) {
   FileHashes hashes{fs::path()};
   ContentReader reader(hashes);
   const fs::path huge = file("huge.bin", "");

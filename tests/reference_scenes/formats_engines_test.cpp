@@ -36,7 +36,6 @@ class WrittenForBlender : public testing::Test {
   const TemporaryDirectory directory_;
 };
 
-/// The sum of a channel.
 double sum_of_channel(const Image& image, std::size_t channel) {
   double sum = 0;
   for (std::size_t i = channel; i < image.values().size(); i += 3) sum += image.values()[i];

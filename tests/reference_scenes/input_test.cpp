@@ -119,7 +119,7 @@ TEST(EngineInput, GainBringsEveryPictureIntoTheRangeOfHalfFloat) {
         }
 }
 
-TEST(EngineInput, PovrayShadesByItselfWhatItHasItself) {
+TEST(EngineInput, UsesPovRaysOwnHighlights) {
   const auto is_native = [](const HighlightChoice& choice, Rgb specular = kWhite,
                             Fresnel fresnel = Fresnel::kNone) {
     Scene scene = sphere_scene(choice, {directional_at(45), point_light()}, 64);
@@ -170,7 +170,7 @@ TEST(NotComparable, SaysWhy) {
   EXPECT_EQ(make_engine("analytic", {})->why_not(wide, {}), "") << "formulas know no size";
 }
 
-TEST(NotComparable, IsWhatNoEngineHas) {
+TEST(NotComparable, IsAFeatureOfNoEngine) {
   const Scene scene = sphere_scene(kNative, {point_light()}, 16);
   const auto why = [&](auto change) {
     Scene changed = scene;
@@ -224,7 +224,7 @@ TEST(NotComparable, IsALampOnASphereInEveryProgramUnlessItFacesAway) {
   EXPECT_THAT(povray->why_not(scene, {}), HasSubstr("lies on sphere 0"));
 }
 
-TEST(NotComparable, IsALampThatPovraysShadowsDoNotTellFromOneInThePlane) {
+TEST(NotComparable, IsALampTooNearAPlaneForPovRay) {
   const auto povray = make_engine("povray", {}), blender = make_engine("blender", {});
   const auto why = [&](double height, Vec3 normal = {}) {
     const Scene scene =
@@ -258,7 +258,7 @@ TEST(EngineUnits, LeaveALampOnTheSurfacesThatItLiesOn) {
   EXPECT_EQ(find_contacts(in_engine_units(scene)), before);
 }
 
-TEST(BlenderInput, RefusesWhatBlenderWouldEnlarge) {
+TEST(BlenderInput, RefusesShapesEnlargedByBlender) {
   Scene scene = sphere_scene(kExpressed, {point_light()}, 16);
   scene.film = {3, 16};
   EXPECT_THROW(blender_input(scene, "scene0"), Error);

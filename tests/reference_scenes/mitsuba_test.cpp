@@ -213,7 +213,7 @@ std::string moved(const char* shape, const std::string& by) {
                      shape, by);
 }
 
-TEST(Mitsuba, NamesWhatItDoesNotReadWithItsLine) {
+TEST(Mitsuba, NamesUnreadPartsWithTheirLines) {
   const std::pair<std::string, const char*> cases[] = {
       {"<shape type=\"obj\"><string name=\"filename\" value=\"/etc/passwd\"/></shape>",
        "s.xml:7:2: <shape type=\"obj\"> is not supported; it is left out"},
@@ -271,7 +271,7 @@ void expect_read_or_refused(const std::string& text) {
   }
 }
 
-TEST(Mitsuba, SurvivesWhatNobodyWrites) {
+TEST(Mitsuba, SurvivesUnusualFiles) {
   std::string deep, doubled = "<default name=\"a0\" value=\"xxxxxxxx\"/>";
   for (int i = 0; i < 100'000; ++i) deep += "<shape>";
   for (int i = 1; i < 64; ++i)

@@ -69,7 +69,7 @@ class NativeEngine : public WithRealEngine {
   ReferenceOptions options_{.shading = Shading::kNative};
 };
 
-TEST_P(NativeEngine, IsWithinItsFloorOfTheFormulasAndFindsAThousandthInTheirCoefficient) {
+TEST_P(NativeEngine, IsWithinItsFloorOfTheFormulas) {
   const std::vector<Scene> all = shown(highlights({10, 100, 1000}));
   ASSERT_GE(all.size(), 6u);
   // In steps of 5, from each scene to the next the exponent and the angle are other ones.
@@ -90,7 +90,7 @@ TEST_P(NativeEngine, IsWithinItsFloorOfTheFormulasAndFindsAThousandthInTheirCoef
   });
 }
 
-TEST_P(NativeEngine, ShowsColouredLightsADiffuseBaseAndAFilmThatIsAside) {
+TEST_P(NativeEngine, ShowsColouredLightsOverADiffuseBase) {
   std::vector<Scene> scenes;
   for (Scene scene : highlights({30})) {
     scene.lights = {DirectionalLight{normalize({-1, -1, -2}), {3, 2, 1}},
@@ -107,7 +107,7 @@ TEST_P(NativeEngine, ShowsColouredLightsADiffuseBaseAndAFilmThatIsAside) {
   expect_within_floor(shown(scenes));
 }
 
-TEST_P(NativeEngine, ShowsWhatIsJustBeforeTheCamera) {
+TEST_P(NativeEngine, ShowsSurfacesJustBeforeTheCamera) {
   std::vector<Scene> scenes = shown(highlights({100}));
   ASSERT_GE(scenes.size(), 2u);
   for (Scene& scene : scenes) {
@@ -137,7 +137,7 @@ TEST_P(NativeEngine, ShowsPointLightsOrShadows) {
   expect_within_floor(shown(scenes));
 }
 
-TEST_P(NativeEngine, SaysInASentenceWhatItCannotShow) {
+TEST_P(NativeEngine, SaysInASentenceWhyItCannotShowAScene) {
   Scene scene = shown(highlights({10}))[0];
   const auto why = [&](const auto& change) {
     Scene changed = scene;
@@ -181,7 +181,7 @@ class FakeNativeEngine : public testing::TestWithParam<std::string> {
   TemporaryDirectory directory_;
 };
 
-TEST_P(FakeNativeEngine, SaysThatItIsMissingOrOfAnotherVersion) {
+TEST_P(FakeNativeEngine, ReportsAMissingOrDifferentVersion) {
   EXPECT_EQ(engine("echo Nothing; exit 69")->status().state, EngineState::kAbsent);
   EXPECT_EQ(engine("exit 3")->status().state, EngineState::kBroken);
   const auto other = engine(fmt::format("echo '{} 77.1'", name()));

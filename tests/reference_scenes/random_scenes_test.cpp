@@ -67,7 +67,7 @@ double apart(Rgb a, Rgb b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
+TEST(RandomScenes, AgreeWithTheFormulasInEveryPixel) {
   const int scenes = 200 * more_samples();
   int compared = 0, lit = 0;
   expect_of_random_scenes(SceneKind::kExact, scenes, [&](const Scene& random_one, Random& random) {

@@ -26,7 +26,7 @@ Image converged(Scene scene) {
   return render(scene, {}).image;
 }
 
-TEST(Replicates, AverageToThePictureWithinTheirOwnNoiseAndComeNearerWithMorePoints) {
+TEST(Replicates, AverageToThePictureWithinTheirOwnNoise) {
   for (NamedScene& named : soft_scenes({"modified_phong", "cosine", "exact", 8}, 16)) {
     SCOPED_TRACE(named.name);
     // With one ray a pixel there is no antialiasing to average; ours has it as soon as it samples.
@@ -77,7 +77,7 @@ TEST(Replicates, ShowTheLightsThemselvesOnlyWhereNothingIsBefore) {
   EXPECT_EQ(seen.pixel(1, 16)[0], 4) << "the lamp, and the sky behind it";
 }
 
-TEST(Replicates, ShowALightThatLiesOnASurfaceAsIfTheSurfaceWereNotThere) {
+TEST(Replicates, IgnoreTheSurfaceUnderALight) {
   Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 8}, {}, 64);
   const Vec3 normal = normalize({0.3, -0.2, 1}), along = normalize(cross(normal, {1, 2, 3}));
   const Vec3 place{0.3, 0.2, -3};

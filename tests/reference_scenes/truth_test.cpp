@@ -22,7 +22,7 @@ TEST(TheReference, KnowsLobesOfSimpleArgumentsToTheLastDigit) {
   EXPECT_NEAR(truth::lobe(lobe("gauss"), 0.5, 9), std::exp(-kPi * kPi / 2), 1e-17);
 }
 
-TEST(TheReference, LosesNoDigitOfALobeAtAnAngleThatACosineInDoubleCannotTellFromZero) {
+TEST(TheReference, LosesNoDigitAtTinyAngles) {
   // s = 1e-20, n = 1e20: (1 - s)^n = 1/e (1 - s n s / 2 ...).
   EXPECT_DOUBLE_EQ(truth::lobe(lobe("cosine"), 1e-20, 1e20), std::exp(-1.0));
   EXPECT_DOUBLE_EQ(truth::one_minus_cos(1e-12), 5e-25);
@@ -103,7 +103,7 @@ Scene one_sphere() {
   return scene;
 }
 
-TEST(TheReference, SeesASphereThatARayTouchesByOneUnitInTheLastPlaceAndNotByNone) {
+TEST(TheReference, SeesASphereTouchedByOneUlp) {
   Scene scene = one_sphere();
   scene.spheres[0].center = {1, 0, 0};  // the middle ray runs along its tangent
   const std::size_t middle = 40;

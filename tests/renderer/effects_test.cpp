@@ -30,7 +30,7 @@ TEST(Effects, ForcedGiveTheSamePictureBitForBitWhereNothingIsRandom) {
   }
 }
 
-TEST(TheRaysOfARecord, AreOfTheMirrorWhereOneReflectsAndNothingScatters) {
+TEST(TheRaysOfARecord, CountMirrorRaysApart) {
   Scene scene = on_the_ground();
   scene.materials[0].mirror_reflectance = {0.5, 0.5, 0.5};
   scene.depth.mirror = 1;

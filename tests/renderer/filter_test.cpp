@@ -73,7 +73,7 @@ TEST(FilterSampler, CountsTheNegativePartByItsShareOfTheFiltersIntegral) {
   EXPECT_GT(FilterSampler(*find_filter("mitchell")).negative_weight(), 0.07);
 }
 
-TEST(FilterSampler, GivesEachPartItsShareOfAnyNumberOfSamplesAndItsOwnCount) {
+TEST(FilterSampler, GivesEachPartItsShareOfTheSamples) {
   for (const std::string_view filter_name : filter_names()) {
     const FilterSampler sampler(*find_filter(filter_name));
     const double weight = sampler.negative_weight(), share = weight / (1 + 2 * weight);

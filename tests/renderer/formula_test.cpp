@@ -157,7 +157,7 @@ std::string complaint_of(const std::string& text) {
   }
 }
 
-TEST(Formula, SaysInOneLineWhatIsWrongAndWhere) {
+TEST(Formula, LocatesAMistakeInOneLine) {
   const std::string names =
       "; allowed: s, n, c, x, pi and the functions exp, log, sqrt, abs, sin, cos, tan, asin, acos, atan, pow, min, max";
   const std::pair<std::string, std::string> cases[] = {

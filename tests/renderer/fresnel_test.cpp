@@ -18,7 +18,7 @@ void expect_near(Rgb a, Rgb b, double allowed, const std::string& what) {
   EXPECT_NEAR(a.b, b.b, allowed) << what;
 }
 
-TEST(SchlicksFactor, IsTheReflectanceHeadOnAndOneAtGrazingAndGrowsInBetween) {
+TEST(SchlicksFactor, GrowsFromTheReflectanceToOneAtGrazing) {
   const auto factor = [](double degrees) {  // of light and eye, each so far from the half vector
     const double a = radians(degrees);
     return fresnel_factor(Fresnel::kSchlick, kReflectance, {std::sin(a), 0, std::cos(a)},
@@ -34,7 +34,7 @@ TEST(SchlicksFactor, IsTheReflectanceHeadOnAndOneAtGrazingAndGrowsInBetween) {
   expect_near(factor(60), 31.0 / 32 * kReflectance + 1.0 / 32 * Rgb{1, 1, 1}, 1e-15, "60");
 }
 
-TEST(FresnelAndDiffuseBase, ScaleTheHighlightOfEveryModelAndAddTheAlbedoByPiTimesTheCosine) {
+TEST(FresnelAndDiffuseBase, AreRightForEveryModel) {
   const Frame frame;
   for (const Highlight& h : highlights(every_model(), std::vector{1.0, 16.0, 1024.0})) {
     const Reflector white({"", h, {1, 1, 1}, {}});

@@ -160,7 +160,7 @@ EnvmapTable with_image(int width, int height, const std::function<float(int, int
   return {image, {1, 1, 1}, floor};
 }
 
-TEST(EnvironmentImage, DrawsWhatIsAboveItsFloorAndNothingElse) {
+TEST(EnvironmentImage, DrawsOnlyPixelsAboveItsFloor) {
   for (const double floor : {0.0, 0.05, 0.1, 50.0}) {
     const EnvmapTable environment = with_image(
         64, 32,
@@ -223,7 +223,7 @@ TEST(EnvironmentImage, MayBeOfOnePixelBlackOrEven) {
   }
 }
 
-TEST(SmoothLuminance, LeavesAtMostFourTimesTheMeanOfWhatIsBelowIt) {
+TEST(SmoothLuminance, IsAtMostFourTimesTheMeanBelowIt) {
   const auto smooth = [](const std::function<float(int, int)>& value) {
     return smooth_luminance(*sky(value));
   };

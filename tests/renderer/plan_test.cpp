@@ -25,7 +25,7 @@ Precision chosen(std::string_view model, double exponent) {
   return plan.precision.at(0).at(0);
 }
 
-TEST(Plan, ASharperHighlightIsShadedWithMoreDigitsAndNeverWithFewer) {
+TEST(Plan, UsesMoreDigitsForSharperHighlights) {
   for (const ModelInfo& model : models()) {
     EXPECT_EQ(chosen(model.name, 8), Precision::kFloat32) << model.name;
     EXPECT_EQ(chosen(model.name, 1e6), Precision::kMixed) << model.name;
@@ -38,12 +38,12 @@ TEST(Plan, ASharperHighlightIsShadedWithMoreDigitsAndNeverWithFewer) {
   }
 }
 
-TEST(Plan, ALobeThatEndsSteeplyAtTheHorizonIsShadedInFloat64) {
+TEST(Plan, UsesFloat64ForLobesWithASteepEnd) {
   // cos^0.1 falls with a vertical tangent there: no rounding of the angle is harmless.
   EXPECT_EQ(chosen("phong_rdf", 0.1), Precision::kFloat64);
 }
 
-TEST(ErrorBoundOfShading, IsFiniteAndGrowsAsHalfVectorsShrinkAndIsAllOfThePeakWhereTheyVanish) {
+TEST(ErrorBoundOfShading, GrowsToThePeakAsHalfVectorsShrink) {
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
   for (const char* name : {"cs12", "cs1024"}) lobes.push_back(*find_lobe(name));
   for (const ModelId model : all_models())
@@ -66,7 +66,7 @@ TEST(ErrorBoundOfShading, IsFiniteAndGrowsAsHalfVectorsShrinkAndIsAllOfThePeakWh
         }
 }
 
-TEST(Plan, TakesThePrecisionThatIsAskedForAndSaysSo) {
+TEST(Plan, TakesTheRequestedPrecision) {
   for (const Precision precision : {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
     const Plan plan = make_plan(canonical_scene("two_spheres"), EffectPolicy::kAll, precision);
     for (const auto& row : plan.precision)
@@ -76,7 +76,7 @@ TEST(Plan, TakesThePrecisionThatIsAskedForAndSaysSo) {
   EXPECT_NE(make_plan(canonical_scene("head_on"), EffectPolicy::kAll).precision_reason, "");
 }
 
-TEST(Plan, ShadesInHalfFloatsOnlyIfAskedAndSaysThatItsTimeIsNoPhones) {
+TEST(Plan, UsesHalfFloatsOnlyOnRequest) {
   const Plan plan =
       make_plan(canonical_scene("oblique_45"), EffectPolicy::kAsCalledFor, Precision::kFloat16);
   EXPECT_NE(plan.precision_reason.find("float16 was asked for, and is emulated"),
@@ -119,7 +119,7 @@ TEST(Plan, OnlyTheSphereInTheWayOfTheLightOccludes) {
   EXPECT_TRUE(plan.occluders[0][1].empty());  // and not the other way round
 }
 
-TEST(MinHalfLengths, AreBelowThatOfEveryPointThatIsSeenAndLitAndNotFarBelow) {
+TEST(MinHalfLengths, AreCloseLowerBoundsForAllVisibleLitPoints) {
   for (const char* name : {"head_on", "oblique_45", "grazing_80", "point_light"}) {
     const Scene scene = canonical_scene(name);
     double least = 2;

@@ -57,7 +57,7 @@ TEST(Remarks, SayWhyAPictureIsBlackAndItIs) {
   }
 }
 
-TEST(Remarks, SayOfASceneWithoutShapesThatItsLightsAreLeftToSee) {
+TEST(Remarks, ExplainASceneWithLightsAlone) {
   Scene scene = plain();
   scene.spheres.clear();
   scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};
@@ -65,7 +65,7 @@ TEST(Remarks, SayOfASceneWithoutShapesThatItsLightsAreLeftToSee) {
   EXPECT_EQ(brightest(scene), 0.5f);
 }
 
-TEST(Remarks, SayThatACameraOnASphereDoesNotSeeIt) {
+TEST(Remarks, ExplainACameraOnASphere) {
   Scene scene = plain();
   for (int i = 0; i < 200; ++i) {
     const double up = std::sin(0.01 * i), across = std::cos(0.01 * i);

@@ -49,7 +49,7 @@ TEST(Kernels, DarkenALightAtTheHorizonInEveryPrecisionAtTheSameCosine) {
   }
 }
 
-TEST(Render, APictureInHalfFloatsIsOffByNoMoreThanItsBoundAndByMoreThanAnyOther) {
+TEST(Render, KeepsTheErrorBoundOfHalfFloats) {
   for (const ModelId model : all_models())
     for (const char* lobe : {"cosine", "cs16", "gauss", "schlick"})
       for (const double n : {8.0, 128.0, 1024.0}) {

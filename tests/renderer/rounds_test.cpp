@@ -26,7 +26,7 @@ double rms_difference(const Image& a, const Image& b) {
   return std::sqrt(difference / value);
 }
 
-TEST(Rounds, StopAtTheErrorThatWasAskedForAndKeepThePromise) {
+TEST(Rounds, StopAtTheRequestedError) {
   Scene scene = noisy();
   scene.sampler.sample_count = 4096;
   const Image truth = render(scene, {}).image;
@@ -55,7 +55,7 @@ TEST(Rounds, TakeNoMoreSamplesThanAllowed) {
   EXPECT_GT(*result.error, 1e-9);
 }
 
-TEST(Rounds, KnowNoErrorOfOneSampleAndExceedNoSamplesOfTheScene) {
+TEST(Rounds, NeverExceedTheSamplesOfTheScene) {
   RenderOptions options;
   options.target_error = 1e-9;
   options.max_samples = 1;

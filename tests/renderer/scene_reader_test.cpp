@@ -20,7 +20,7 @@ TEST(CanonicalScenes, AllReadAndWriteBackToTheSameScene) {
   EXPECT_GE(count, 14);
 }
 
-TEST(EffectScenes, HaveWhatTheirNamesSay) {
+TEST(EffectScenes, HaveTheEffectsOfTheirNames) {
   const std::pair<const char*, const char*> beyond[] = {
       {"area_light", "an area light, a ground plane"},
       {"rectangle_light", "an area light, a ground plane"},
@@ -37,7 +37,7 @@ TEST(EffectScenes, HaveWhatTheirNamesSay) {
   EXPECT_EQ(read_scene(effects + "crowd.xml").spheres.size(), 10164u);
 }
 
-TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint) {
+TEST(SceneReader, TakesDefaultsForAllOptionalParts) {
   const Scene s = parse_scene(
       scene("<shape type=\"sphere\"><point name=\"center\" x=\"1\" z=\"3\"/>"
             "<bsdf type=\"modified_phong\"><float name=\"exponent\" value=\"8\"/></bsdf></shape>"
@@ -56,7 +56,7 @@ TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint
   EXPECT_EQ(s.materials[s.spheres[1].material].specular_reflectance, (Rgb{0.5, 0.5, 0.5}));
 }
 
-TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
+TEST(SceneReader, ExplainsEveryError) {
   const std::string emitter =
       "<emitter type=\"directional\">\n  <vector name=\"direction\" value=\"";
   const BadScene bad[] = {
@@ -139,7 +139,7 @@ TEST(SceneReader, ReadsNoEntitiesAndNothingFromOutside) {
       testing::HasSubstr("a DOCTYPE is not allowed"));
 }
 
-TEST(SceneReader, SurvivesBrokenXmlAndBinaryAndDeepNesting) {
+TEST(SceneReader, SurvivesBrokenOrDeeplyNestedXml) {
   for (const std::string& text :
        {std::string("<scene"), std::string("<scene>\n<a></scene>"), std::string(),
         std::string("\0\xff\xfe<>", 5), std::string("just text")})
@@ -177,7 +177,7 @@ TEST(SceneReader, ShowsNoControlCharactersOfAHostileFile) {
               testing::Not(testing::HasSubstr("\x1b")));
 }
 
-TEST(SceneFormatDocument, IsWhatTheProgramPrints) {
+TEST(SceneFormatDocument, MatchesTheOutputOfTheProgram) {
   std::ifstream file(kRoot + "/docs/scene_format.md");
   std::stringstream text;
   text << file.rdbuf();

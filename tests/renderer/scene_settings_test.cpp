@@ -57,7 +57,7 @@ TEST(SceneFilter, IsReadAndWrittenByEveryNameAndRadius) {
   EXPECT_EQ(with_sensor(kSensor).film.filter, Filter{});
 }
 
-TEST(SceneDepth, IsWhatTheIntegratorSaysAndEightReflectionsWithAMirrorAndNoIntegrator) {
+TEST(SceneDepth, ComesFromTheIntegratorOrIsEightForMirrors) {
   const auto scene_of = [](const std::string& body) {
     return again(parse_scene(scene(body), "s.xml"));
   };

@@ -48,7 +48,7 @@ TEST_F(ExportCommand, WritesHalfFloatsForGlslAndHlsl) {
   EXPECT_THAT(file("a"), HasSubstr("\nmin16float lobelia_modified_phong_cosine_min16float("));
 }
 
-TEST_F(ExportCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndWritesIt) {
+TEST_F(ExportCommand, WarnsOutsideThePapersExponents) {
   const auto exported = [&](const char* exponent) {
     return run({"--language", "glsl", "phong_rdf", "--lobe", "cs16", "--normalisation", "paper",
                 "--exponent", exponent, "-o", "x.glsl"});
@@ -60,7 +60,7 @@ TEST_F(ExportCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndWrites
   EXPECT_EQ(exported("64").output_tail, "");
 }
 
-TEST_F(ExportCommand, IsWhatTheReferenceRendersOfPovrayInclude) {
+TEST_F(ExportCommand, MatchesThePovRayReference) {
   const Scene scene =
       sphere_scene({"modified_phong", "gauss", "exact", 64}, {directional_at(45)}, 16);
   ASSERT_EQ(

@@ -145,7 +145,6 @@ class ExportJudge {
   ExportJudge(const std::vector<CalledPoint>& points, KnownValues& known)
       : points_(points), known_(known) {}
 
-  /// `colour` is what the function gave for point `i`.
   void add(const ExportOutput& output, std::size_t i, Rgb colour) {
     const auto& [d, n, is_hard] = points_[i];
     const double given[] = {colour.r, colour.g, colour.b};

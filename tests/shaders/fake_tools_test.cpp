@@ -94,7 +94,7 @@ TEST_F(FakeShaderTools, NoCompilerIsStartedOnceTheSharedTimeIsOver) {
             "3: mine.hlsl: glslangValidator did not end within 0 s");
 }
 
-TEST_F(FakeShaderTools, ACompilerThatCrashesIsNotTakenForOneThatRefuses) {
+TEST_F(FakeShaderTools, TellACrashFromARefusal) {
   fake("glslangValidator", "kill -SEGV $$");
   EXPECT_EQ(compile(std::chrono::hours(1)),
             "5: mine.hlsl: glslangValidator was ended by signal 11");

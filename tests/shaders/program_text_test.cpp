@@ -50,7 +50,7 @@ TEST(PlainText, EveryWayToWriteAnIncludeIsRefusedByItsLine) {
           << text;
 }
 
-TEST(PlainText, OnlyIncludesAreRefusedAndCommentsGo) {
+TEST(PlainText, RefusesOnlyIncludes) {
   for (const char* text :
        {"// #include \"a\"\n", "/* #include \"a\"\n#include \"b\" */\n", "#define include 1\n",
         "float include;\n", "// a \\\n#include \"a\"\n", "#define included\n#define f(x) #x\n"}) {

@@ -145,7 +145,7 @@ TEST_F(RunByADriver, EveryHlslFunctionHasTheRadianceOfTheFormulasOnVulkan) {
   expect_the_formulas(ShaderText::kHlsl, ShaderApi::kVulkan);
 }
 
-TEST_F(RunByADriver, EveryFunctionIsANumberForTheSmallestAndTheLargestExponents) {
+TEST_F(RunByADriver, EveryFunctionIsFiniteForExtremeExponents) {
   std::vector<CalledPoint> points;
   for (const double n : {0.0, 3.0, kMaxExponent})
     for (const Directions& d : hard_directions()) points.push_back({d, n, true});

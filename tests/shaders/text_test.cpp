@@ -72,7 +72,7 @@ class CompiledByGlslang : public testing::Test {
   std::vector<std::string> files_;
 };
 
-TEST_F(CompiledByGlslang, EveryGlslExportIsAcceptedByTheOldestAndTheNewestVersions) {
+TEST_F(CompiledByGlslang, EveryGlslExportIsValidInAllVersions) {
   const char* const es = "precision highp float;\n";
   expect_accepted("100", es, every_export("glsl"));
   expect_accepted("110", "", every_export("glsl"));
@@ -80,7 +80,7 @@ TEST_F(CompiledByGlslang, EveryGlslExportIsAcceptedByTheOldestAndTheNewestVersio
   expect_accepted("460", "", every_export("glsl"));
 }
 
-TEST_F(CompiledByGlslang, AGlslExportIsOfHighPrecisionWhateverTheShadersDefault) {
+TEST_F(CompiledByGlslang, KeepsHighPrecisionInGlslExports) {
   const auto precisions = [&](const std::string& text) {
     files_.clear();
     write("mediump.frag", "#version 320 es\nprecision mediump float;\n" + text +
@@ -158,7 +158,7 @@ TEST(HalfFloatExports, AreTheSameInGlslAndHlslButForTheTypes) {
                    {"(?:_MEDIUMP|_MIN16FLOAT)\\b", ""}});
 }
 
-TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
+TEST(MslExport, MatchesTheHlslExportBelowItsBeginning) {
   // No compiler of MSL is in Debian. What the text computes, run_test shows of HLSL.
   const std::vector<ShaderExport> msl = every_export("msl");
   expect_the_same(msl, every_export("hlsl"), {std::pair{"\\binline ", ""}});
@@ -169,7 +169,7 @@ TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
   EXPECT_FALSE(std::regex_search(shader_text(msl.front()), std::regex("\n(float|float3) ")));
 }
 
-TEST(OslExport, IsTheHlslExportButForTypesAndTheNormalsName) {
+TEST(OslExport, MatchesTheHlslExportExceptForItsTypes) {
   // No compiler of OSL is in Debian. What the text computes, run_test shows of HLSL.
   expect_the_same(every_export("osl"), every_export("hlsl"),
                   {{"\\b(vector|color)\\b(?!s)", "float3"}, {"\\bsurface_normal\\b", "normal"}});
@@ -199,7 +199,7 @@ TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
   EXPECT_GT(names, 1000);
 }
 
-TEST(EveryExport, IsFilledInAndSaysWhatItIs) {
+TEST(EveryExport, NamesItsSources) {
   for (const std::string_view language : shader_language_names())
     for (ShaderExport request : every_export(std::string(language))) {
       if (language == "povray")
@@ -216,7 +216,7 @@ TEST(EveryExport, IsFilledInAndSaysWhatItIs) {
     }
 }
 
-TEST(AnExport, HasWhatSeveralModelsShareOnce) {
+TEST(AnExport, HasSharedFunctionsOnce) {
   const std::string text = shader_text({*find_shader_language("glsl"),
                                         {all_models().begin(), all_models().end()},
                                         *find_lobe("cs16"),

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Scope kFull{false, 32}, kSmall{true, 32};
 
-TEST(AgreementCases, HaveEveryModelWithEveryLobeAndEveryLightAndInFullAtEveryExponent) {
+TEST(AgreementCases, CoverEveryHighlightUnderEveryLight) {
   for (const Scope& scope : {kFull, kSmall}) {
     std::set<std::string> highlights, with_exponent, lights;
     std::set<double> exponents;
@@ -108,7 +108,7 @@ TEST(AgreementTable, SaysMissedWhereATargetIsMissed) {
   EXPECT_THAT(report_csv(agreement), HasSubstr(",missed,"));
 }
 
-TEST(AgreementPage, HasTheSectionsAndColumnsThatTheProgramWrites) {
+TEST(AgreementPage, HasTheProgramsSectionsWithTheirColumns) {
   const std::string page = read_file(LOBELIA_SOURCE_DIR "/docs/agreement.md", 1 << 20);
   const std::string today = report_markdown({}, "lobelia verify references");
   EXPECT_EQ(page.substr(0, page.find("`lobelia verify references`:")),
@@ -125,7 +125,7 @@ TEST(AgreementPage, HasTheSectionsAndColumnsThatTheProgramWrites) {
     EXPECT_THAT(page, HasSubstr(fmt::format("\n| {} | up to 1024 |", variant.title)));
 }
 
-TEST(AgreementCommand, RefusesWhatItCannotDoBeforeItWorks) {
+TEST(AgreementCommand, RefusesWrongOptionsUpFront) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "file", "");
   const auto expect = [&](std::vector<std::string> more, ExitCode code, const char* message) {

@@ -42,7 +42,7 @@ const Row& row(const std::vector<Row>& rows, std::string_view name) {
   return *found;
 }
 
-TEST(Curve, ReflectsTheEnergyThatTheModelDoesAtNormalIncidence) {
+TEST(Curve, ReflectsTheModelsEnergyAtNormalIncidence) {
   for (const ShadingModel& one : catalogue())
     for (const double n : {1e-3, 0.5, 16.0, 1e3, 1e8}) {
       const Highlight highlight{*one.id, *find_lobe("cosine"), Normalisation::kExact, n};
@@ -170,7 +170,7 @@ TEST(Errors, AreThoseOfAnotherImplementation) {
   EXPECT_GT(largest_difference(from, Curve(kGgxModel, 0.2425, 1)).angle, 0.1);
 }
 
-TEST(Rules, HaveThePeaksOfTheDistributionsAndTheWidthsThatAreQuoted) {
+TEST(Rules, HaveTheQuotedPeaksWithTheirWidths) {
   const double n = 32;
   // The distributions alone, as functions of the angle of N from H.
   const auto peak = [&](double alpha) { return 1 / (kPi * alpha * alpha) / ((n + 2) / (2 * kPi)); };

@@ -36,7 +36,7 @@ Table counted_table(std::vector<Variant> variants) {
   return result;
 }
 
-TEST(ParetoFront, LeavesOutWhatHasNoError) {
+TEST(ParetoFront, OmitsVariantsWithoutAnError) {
   const records::CostFront front =
       pareto_front(table({variant("a", 1, std::nan("")), variant("b", 2, 1)}), 0);
   EXPECT_THAT(front.variants, ElementsAre("b"));
@@ -44,7 +44,7 @@ TEST(ParetoFront, LeavesOutWhatHasNoError) {
   EXPECT_THAT(pareto_front(table({}), 0).variants, IsEmpty());
 }
 
-TEST(ParetoFront, IsThatOfTheDefinitionForAnyVariantsAndBeginsWithTheFastest) {
+TEST(ParetoFront, MatchesItsDefinitionForAnyVariants) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> small(1, 12);
   for (int trial = 0; trial < 200; ++trial) {
@@ -76,7 +76,7 @@ TEST(ParetoFront, IsThatOfTheDefinitionForAnyVariantsAndBeginsWithTheFastest) {
   }
 }
 
-TEST(FrontSentences, SayWhatMoreAccuracyCosts) {
+TEST(FrontSentences, StateTheCostOfMoreAccuracy) {
   const auto in_words = [](std::vector<Variant> variants) {
     return pareto_front(table(std::move(variants)), 0).in_words;
   };
@@ -138,7 +138,7 @@ TEST(CostChart, IsXmlWithAPointForEachVariantEvenWhereItHasNoError) {
   EXPECT_THAT(points[0].node().child("title").text().as_string(), HasSubstr("slow, \"but\""));
 }
 
-TEST(CountedTables, SayWhatTheyCountInEveryForm) {
+TEST(CountedTables, NameTheirCountsInEveryForm) {
   records::Cost counted = report();
   counted.tables = {counted_table({variant("8 bits", 64, 0.1), variant("16 bits", 256, 0.001)})};
   const Table& table = counted.tables[0];

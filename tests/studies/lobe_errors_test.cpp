@@ -185,7 +185,7 @@ LobeVariantErrors errors_of(double exponent, const std::string& name) {
   return LobeTruth(exponent).errors(variant_named(lobe_variants(exponent), name));
 }
 
-TEST(LobeVariants, AreOfEveryLobeInEveryPrecisionWithNamesOfTheirOwnAndSomethingToDo) {
+TEST(LobeVariants, CoverEveryLobeInEveryPrecision) {
   for (const double exponent : {1.0, 16.0, 64.5, 1e6}) {
     std::set<std::string> names;
     std::map<std::string_view, std::set<std::pair<bool, bool>>> kinds;
@@ -202,7 +202,7 @@ TEST(LobeVariants, AreOfEveryLobeInEveryPrecisionWithNamesOfTheirOwnAndSomething
   }
 }
 
-TEST(LobeVariants, CountWhatTheyDo) {
+TEST(LobeVariants, CountTheirOperations) {
   const std::vector<LobeVariant> variants = lobe_variants(1000);  // 0b1111101000
   EXPECT_EQ(variant_named(variants, "cosine, squaring, float32 SIMD").operations.multiply, 9 + 5);
   EXPECT_EQ(variant_named(variants, "cs16, stable, float32 SIMD").operations.multiply, 1 + 4);
@@ -246,7 +246,7 @@ TEST(LobeErrors, ComeFromTheSlowTailForSchlick) {
   EXPECT_THAT(e.energy, DoubleNear((1024 * std::log(1024) / 1023 - 1) / 1023 * 1025 - 1, 1e-9));
 }
 
-TEST(LobeErrors, SumWhatRoundingDriftsTo) {
+TEST(LobeErrors, IncludeTheDriftOfRounding) {
   // A variant that is 1e-6 of its value too large has so much too much energy, and a rounding of as much.
   LobeVariant variant = variant_named(lobe_variants(64), "cosine, exp(n log1p(-s)), float64");
   variant.allowed = 1e-5;
@@ -288,7 +288,7 @@ TEST(LobeTable, HasEveryVariantWithItsTimeErrorsAndOperations) {
   EXPECT_THAT(table.remarks, Contains(HasSubstr("a bracket: the largest found")));
 }
 
-TEST(LobeLevel, HasATableForEachExponentAndForBothAnglesInHalfFloats) {
+TEST(LobeLevel, HasATableForEachExponent) {
   Options options;
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);

@@ -125,7 +125,7 @@ TEST(PaperErrata, AreThePageInDocs) {
       << "run: lobelia verify paper --errata > docs/errata.md";
 }
 
-TEST(PaperClaims, SayAllThatAReaderNeedsUnderNamesOfTheirOwn) {
+TEST(PaperClaims, AreCompleteUnderUniqueNames) {
   static const std::regex kebab("[a-z0-9.]+(-[a-z0-9.]+)*");
   std::set<std::string_view> names;
   for (const Claim& claim : measured_claims()) {

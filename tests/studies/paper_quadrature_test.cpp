@@ -29,7 +29,7 @@ TEST(PaperEnergy, IsForCs16ItsClosedFormToFifteenDigits) {
   }
 }
 
-TEST(PaperEnergy, LosesWhatLiesBeyondIfCutAsPrinted) {
+TEST(PaperEnergy, LosesEnergyIfCutAsPrinted) {
   const Row& row = kRows[kBlinn];
   const Real whole = hemisphere_integral(row, Lobe::kCs16, 1024),
              cut = hemisphere_integral(row, Lobe::kCs16, 1024, Cut::kPrinted);

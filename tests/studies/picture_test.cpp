@@ -16,7 +16,7 @@ const Variant& find(const Table& table, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-TEST(PictureLevel, HasAVariantForEachLobeAndPrecisionHeldAgainstTheFormulas) {
+TEST(PictureLevel, ChecksEachLobeInEachPrecision) {
   Options options;
   options.effort = Effort::kQuick;
   options.scenes = {{"head_on", canonical_scene("head_on")}};
@@ -58,7 +58,7 @@ TEST(PictureLevel, HasAVariantForEachLobeAndPrecisionHeldAgainstTheFormulas) {
   }
 }
 
-TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
+TEST(PictureLevel, NamesTheTruthOfARandomPicture) {
   Options options;
   options.effort = Effort::kQuick;
   Scene soft = canonical_scene("effects/area_light");

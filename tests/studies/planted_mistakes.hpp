@@ -95,7 +95,6 @@ inline const std::vector<PlantedMistake>& planted_mistakes() {
        LOBELIA_LIT "return (n + 1.0) * pow(half_cosine(N, V, L), n) * nl;",
        {"eight-pi-missing"},
        "a division by 8 pi is missing"},
-      // The cosine.
       {"the cosine is missing",
        "modified_phong",
        LOBELIA_LIT "return (n + 2.0) / (2.0 * PI) * pow(mirror_cosine(N, V, L), n);",
@@ -168,7 +167,6 @@ inline const std::vector<PlantedMistake>& planted_mistakes() {
        LOBELIA_LIT "return (n + 1.0) / (8.0 * PI) * pow(nl, n) * nl;",
        {"light-for-half-vector"},
        "N.L is used in the lobe"},
-      // The exponent.
       {"n for 2 n",
        "modified_phong",
        LOBELIA_LIT "return (n + 2.0) / (2.0 * PI) * pow(mirror_cosine(N, V, L), 0.5 * n) * nl;",
@@ -219,7 +217,6 @@ inline const std::vector<PlantedMistake>& planted_mistakes() {
        "2^(10 (1 - roughness) + 1)",
        "N,V,L,roughness",
        "vec3 N, vec3 V, vec3 L, float roughness"},
-      // Precision, range and light.
       {"half-float s",
        "modified_phong",
        "if (nl <= 0.0) return 0.0; return (n + 2.0) / (2.0 * PI) * "

@@ -55,7 +55,7 @@ TEST(ProfilesStudy, RefusesErrorsOfLobesOfHalfTheSizeOrThrice) {
   }
 }
 
-TEST(ProfilesStudy, RecordsWhatTheTableSays) {
+TEST(ProfilesStudy, RecordsTheFiguresOfTheTable) {
   Options options;
   options.pictures = 2;
   options.only = std::string(kinds().back().name);
@@ -90,7 +90,7 @@ TEST(ProfilesStudy, MakesTheSamePicturesOfASeed) {
   EXPECT_EQ(alone.figures.at("peak").worst(), measured(one).front().figures.at("peak").worst());
 }
 
-TEST(ProfilesStudy, CountsWhatIsMissingAsMissed) {
+TEST(ProfilesStudy, CountsMissingFiguresAsMissed) {
   Tally tally;
   tally.add(1.01, 1, 0.01, 1);
   tally.add(1.03, 1, 0.01, 1);

@@ -140,7 +140,7 @@ TEST(Search, FindsNoLobesNearerThanTheCatalogues) {
   }
 }
 
-TEST(Search, TimesWhatItFound) {
+TEST(Search, TimesFoundLobes) {
   // The timed function is the lobe: its value in float32 is that in double.
   constexpr std::size_t kCount = 4096;
   std::vector<float, oneapi::tbb::cache_aligned_allocator<float>> s(kCount), value(kCount);
@@ -199,7 +199,7 @@ TEST(Search, CountsTheRoundingOfItsPrecisionAgainstTheError) {
   EXPECT_GT(chosen.price, lobe("pk3.0")->price);
 }
 
-TEST(Search, DoesNotProveWhatIsNotSo) {
+TEST(Search, ProvesNoFalseBound) {
   const Range range{16, kInfinity};
   Lobe lobe = minimax({Outer::kClamp, 3, 2, 1}, range).lobe;
   const double best = prove(lobe, range).bound;
@@ -209,7 +209,7 @@ TEST(Search, DoesNotProveWhatIsNotSo) {
   EXPECT_FALSE(prove(lobe, range).decreases);
 }
 
-TEST(Search, RefusesWhatItCannotRead) {
+TEST(Search, RefusesUnreadableInput) {
   for (const char* text : {"", "x", "16..", "..16", "1024..16", "0..5", "nan", "16..nan", "-1",
                            "16..32..64", "1e9", "inf", "16,32"})
     EXPECT_THROW(parse_range(text), Error) << text;

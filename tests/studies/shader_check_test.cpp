@@ -118,7 +118,7 @@ TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
     }
 }
 
-TEST_F(ShaderCheck, RefusesInOneLineAShaderThatDoesNotCompileEndOrWrite) {
+TEST_F(ShaderCheck, RefusesInOneLineABrokenShader) {
   const std::string head = "float highlight(vec3 N, vec3 V, vec3 L, float n)\n";
   const auto with = [&](const std::string& body, std::chrono::duration<double> time_limit = kHang) {
     shader_check::Request request = request_of("phong_rdf", head + body);
@@ -155,7 +155,7 @@ TEST_F(ShaderCheck, RefusesInOneLineAShaderThatDoesNotCompileEndOrWrite) {
               testing::StartsWith("2: --arguments: 'm' is unknown; allowed: N, V"));
 }
 
-TEST_F(ShaderCheck, CountsWhatIsNoNumberAndWhatIsOutsideTheSupport) {
+TEST_F(ShaderCheck, CountsNansBesideValuesOutsideTheSupport) {
   const std::string head =
       "float highlight(vec3 N, vec3 V, vec3 L, float n)\n{ float c = dot(reflect(-V, N), L); ";
   const Check nan =

@@ -10,7 +10,7 @@ namespace {
 
 const bool kDisabled = (hwy::DisableTargets(~std::int64_t{HWY_STATIC_TARGET}), true);
 
-TEST(TheBaseline, IsWhatRuns) {
+TEST(TheBaseline, RunsOnThisProcessor) {
   EXPECT_TRUE(kDisabled);
   EXPECT_STREQ(kernels().instruction_set, hwy::TargetName(HWY_STATIC_TARGET));
 }

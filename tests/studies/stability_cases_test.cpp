@@ -38,7 +38,7 @@ std::size_t expect_within(Rows (*rows_of)(LobeId)) {
   return rows;
 }
 
-TEST(HardCases, CoverEveryListedLobeAndTwoThatAreNotListed) {
+TEST(HardCases, CoverEveryListedLobePlusTwoOthers) {
   const auto lobes = lobes_under_test();
   ASSERT_EQ(lobes.size(), all_lobes().size() + 2);
   for (const LobeId& lobe : all_lobes())
@@ -49,11 +49,11 @@ TEST(HardCases, CoefficientsAreRightWhereThePlainFormulaOverflows) {
   EXPECT_EQ(expect_within(coefficient_rows), some_lobes().size() * models().size() * 11);
 }
 
-TEST(HardCases, VectorsOfAnyLengthAndPlaceAreShadedWithinTheBound) {
+TEST(HardCases, ShadeVectorsOfAnyLengthWithinTheBound) {
   EXPECT_GT(expect_within(vector_rows), some_lobes().size() * models().size() * 9 * 30);
 }
 
-TEST(HardCases, DensitiesAreRightDownToTheirUnderflowAndNotOnlyWhereThereIsNothing) {
+TEST(HardCases, HaveRightDensitiesDownToTheirUnderflow) {
   for (const LobeId& lobe : some_lobes()) {
     int compared = 0, above_nothing = 0;
     const Rows rows = density_rows(lobe);
@@ -120,7 +120,7 @@ TEST(HardCases, SphereScenesShowTheHighlightWhereTheyAreMadeFor) {
 
 class RandomVectorsOf : public testing::TestWithParam<double> {};
 
-TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecisionAndOfTheOneChosen) {
+TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecision) {
   const Rows rows = precision_rows(lobes_under_test(), GetParam());
   EXPECT_GE(expect_within(rows), lobes_under_test().size() * models().size() * 4);
   double chosen = 0;
@@ -153,7 +153,7 @@ TEST(TheNaiveFormula, IsThatOfItsOwnModelForEveryLobe) {
     }
 }
 
-TEST(TheNaiveFormula, MissesSpheresThatAreFarAwayAndOverflowsCoefficients) {
+TEST(TheNaiveFormula, MissesDistantSpheres) {
   int wrong = 0, infinite = 0;
   for (const Row& row : sphere_rows(*find_lobe("cosine")))
     if (row.name == "1e7 radii away") wrong = std::max(wrong, row.naive.wrong_pixels);

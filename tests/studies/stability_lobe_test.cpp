@@ -51,7 +51,7 @@ TEST(EveryLobeInFloat32, IsWithinItsStatedBoundInTheHardCases) {
   EXPECT_EQ(rows, lobes_under_test().size() * kExponents.size() * 15);
 }
 
-TEST(EveryLobeInFloat32, IsWithinItsStatedBoundEverywhereAndTheBoundIsNoFourTimesAsLoose) {
+TEST(EveryLobeInFloat32, IsWithinItsTightBoundEverywhere) {
   for (const LobeId& lobe : lobes_under_test()) {
     double of_peak_used = 0, ulp_used = 0;
     for (const double n : kExponents) {
@@ -86,7 +86,7 @@ TEST(EveryLobeInFloat32, IsWithinItsStatedBoundEverywhereAndTheBoundIsNoFourTime
   }
 }
 
-TEST(EveryLobeInFloat32, MeetsNoNumberThatIsDenormalOnTheWayToAResultTooSmall) {
+TEST(EveryLobeInFloat32, MeetsNoDenormalIntermediate) {
   // A processor notes it when a result is below the smallest normal number.
   const auto underflows = [](auto work) {
     std::feclearexcept(FE_ALL_EXCEPT);

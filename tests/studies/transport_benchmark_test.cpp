@@ -100,7 +100,7 @@ TEST(Directions, BringTheSameLightHoweverTheyAreDrawn) {
   expect_the_same_light(with_inter_reflection(below_rectangle(16)), Directions::kEven, 4096, 0.02);
 }
 
-TEST(Directions, ScatterNoRaysByLightAloneAndCastNoShadowRaysBySurfaceAlone) {
+TEST(Directions, CastOnlyRaysOfTheirOwnKind) {
   RenderOptions how;
   how.experiment.directions = Directions::kSurface;
   const Work surface = render_timed(below_rectangle(16), 4, 1, how).result.work;
@@ -126,7 +126,7 @@ TEST(SlopeFit, HasTheTextbooksStandardErrorOfThreePoints) {
   EXPECT_NEAR(slope.standard_error, std::sqrt(0.06 / 1 / 2), 1e-12);
 }
 
-TEST(SlopeFit, KnowsWhatItCannotTell) {
+TEST(SlopeFit, HasNoErrorFromTwoPoints) {
   EXPECT_TRUE(std::isnan(fit_slope({1}, {1}).value));
   EXPECT_NEAR(fit_slope({1, 4}, {1, 0.5}).value, -0.5, 1e-12);
   EXPECT_TRUE(std::isnan(fit_slope({1, 4}, {1, 0.5}).standard_error));
@@ -140,7 +140,7 @@ TEST(TimeToError, IsInterpolatedOnThePowerLawBetweenTwoPoints) {
   EXPECT_EQ(time.reach, TimeTo::Reach::kWithin);
 }
 
-TEST(TimeToError, GoesOnBeyondTheLastPointWithoutTheStartAndSaysSo) {
+TEST(TimeToError, ExtrapolatesBeyondTheLastPoint) {
   const std::vector<double> samples{1, 4, 16, 64},
       seconds{5.1, 5.4, 6.6, 11.4};  // 5 and 0.1 for each
   auto errors = powers(samples, 0.2, -0.5);

@@ -20,7 +20,7 @@ int most_alarms(int pairs, double level) {
   return int(boost::math::quantile(boost::math::complement(alarms, 1e-3)));
 }
 
-TEST(Verdicts, KeepThePromisedRateOfFalseAlarmsAndFindWhatIsThirtyPercentDimmer) {
+TEST(Verdicts, KeepThePromisedRateOfFalseAlarms) {
   Options options;
   options.small = true;
   options.seeds = 40 * more_samples();
@@ -47,7 +47,7 @@ TEST(Verdicts, KeepThePromisedRateOfFalseAlarmsAndFindWhatIsThirtyPercentDimmer)
   EXPECT_LE(false_alarms, most_alarms(pairs, options.significance / 2));
 }
 
-TEST(Verdicts, PicturesOfOneCellHaveOneExpectationAndDifferFromSeedToSeed) {
+TEST(Verdicts, UsePicturesWithOneExpectation) {
   for (const Noise noise : {Noise::kColours, Noise::kGamma, Noise::kFireflies, Noise::kRenders}) {
     const Cell cell{noise, 16, 4, 2};
     const Image one = picture_of(cell, 1, nullptr), again = picture_of(cell, 1, nullptr),
@@ -70,7 +70,7 @@ TEST(Verdicts, PicturesOfOneCellHaveOneExpectationAndDifferFromSeedToSeed) {
   }
 }
 
-TEST(VerdictReport, NamesWhatIsOutsideAndDrawsACurveForEachCell) {
+TEST(VerdictReport, DrawsACurveForEachCell) {
   records::VerifyVerdicts verdicts;
   verdicts.significance = 0.01;
   verdicts.seeds = 100;

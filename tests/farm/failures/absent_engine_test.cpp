@@ -30,7 +30,7 @@ class AbsentEngine : public FailingFarm {
   Json engine() const { return read_json(out() / "farm.json").at("engines")[1]; }
 };
 
-TEST_F(AbsentEngine, KeepsWhatItMadeBeforeInCellsAndInTheFarmsRecord) {
+TEST_F(AbsentEngine, KeepsItsEarlierPictures) {
   install(fake_povray());
   ASSERT_EQ(run_with_path().exit_code, 0);
   const Json before = engine();
@@ -88,7 +88,7 @@ TEST_F(AbsentEngine, KeepsItsFilesThoughTheCacheIsLost) {
     EXPECT_TRUE(fs::exists(out() / "cells" / "n16" / file)) << file;
 }
 
-TEST_F(AbsentEngine, IsAnErrorBeforeAnythingIsMadeIfEnginesAreRequiredOrItsProgramIsGiven) {
+TEST_F(AbsentEngine, IsAnErrorUpFrontIfRequired) {
   const FarmRun required = run_with_path({"--require-engines"});
   EXPECT_EQ(required.exit_code, 5) << required.output;
   EXPECT_EQ(required.output,
@@ -102,7 +102,7 @@ TEST_F(AbsentEngine, IsAnErrorBeforeAnythingIsMadeIfEnginesAreRequiredOrItsProgr
   EXPECT_EQ(run_with_path().exit_code, 0);
 }
 
-TEST_F(AbsentEngine, EndsTheFarmInOneLineAndChangesNothingIfItIsBroken) {
+TEST_F(AbsentEngine, EndsTheFarmInOneLineIfBroken) {
   install(fake_povray());
   ASSERT_EQ(run_with_path().exit_code, 0);
   const auto before = everything_in(out()), cached = everything_in(cache());

@@ -53,7 +53,7 @@ class BadEngine : public FailingFarm {
   }
 };
 
-TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
+TEST_F(BadEngine, FailsEachTimeInItsOwnClass) {
   undisturbed();
   std::string misdeeds = "case $cell in\n";
   for (std::size_t i = 0; i < std::size(kMisdeeds); ++i)
@@ -90,7 +90,7 @@ TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
 
 using OddEngine = FailingFarm;
 
-TEST_F(OddEngine, IsTriedAgainAndTheRecordSaysHowOften) {
+TEST_F(OddEngine, RecordsItsNumberOfTries) {
   undisturbed();
   fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");
   const FarmRun only = run();
@@ -192,7 +192,7 @@ TEST_F(OddEngine, IsInterruptedWithTheFarmAndLeavesNothing) {
   expect_mended(run(), 3);
 }
 
-TEST_F(OddEngine, NamesInItsMessageWhatIsStillThere) {
+TEST_F(OddEngine, NamesItsRemainingFiles) {
   fake_povray("[ $cell = n16 ] && echo \"Error: $PWD/$stem.pov is too red\" && exit 3");
   ASSERT_EQ(run({"--attempts", "1"}).exit_code, 4);
   const std::string message = failure_of("n16").value("message", "");
@@ -307,7 +307,7 @@ TEST_F(OddEngine, LeavesTheRestToAnotherNodeIfItAlwaysFailsOnOne) {
   EXPECT_EQ(kept, first.failed) << "what was not tried has not failed";
 }
 
-TEST_F(OddEngine, HasOfOurEnvironmentOnlyWhatTheListAllowsAndIsContained) {
+TEST_F(OddEngine, GetsOnlyListedVariablesOfOurEnvironment) {
   grid({"8"});
   fake_povray("echo begin; env; echo end");
   const FarmRun done = run_command(

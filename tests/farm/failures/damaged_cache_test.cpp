@@ -142,7 +142,7 @@ TEST_F(DamagedCache, IsNotPutWhereItWouldBeTakenForAPartOfAFarm) {
   expect_mended(run(), 0);
 }
 
-TEST_F(DamagedCache, CommandsThatTakeThingsAwayWantToKnowThatItIsAFarms) {
+TEST_F(DamagedCache, IsOnlyCleanedIfItBelongsToAFarm) {
   fs::create_directories(root() / "home" / "cells" / "precious");
   for (const char* command : {"clean", "gc", "verify", "status"}) {
     const FarmRun refused = run_command({"farm", command, "home"});

@@ -100,7 +100,6 @@ class FailingFarm : public testing::Test {
   void expect_mended(const FarmRun& second);
   void expect_nothing_half_written() const;
 
-  /// Pictures in the cache.
   std::size_t cached_pictures() const;
   fs::path result_of(const std::string& cell, const std::string& job) const;
   Json failure_of(const std::string& cell) const;

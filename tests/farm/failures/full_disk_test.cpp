@@ -32,7 +32,7 @@ class Disk : public FailingFarm {
   }
 };
 
-TEST_F(Disk, EndsTheFarmInOneLineWhenFullAndLetsItGoOnWithRoom) {
+TEST_F(Disk, EndsTheFarmInOneLineWhenFull) {
   // So small that nothing fits at all, then a bit more of it.
   for (const int kilobytes : {4, 16, 40, 60, 90, 120, 200}) {
     SCOPED_TRACE(kilobytes);
@@ -69,7 +69,7 @@ TEST_F(Disk, MayBeFullWhereTheFarmsDirectoryIs) {
   }
 }
 
-TEST_F(Disk, ServesWhatItHasIfItIsReadOnly) {
+TEST_F(Disk, ServesItsResultsIfReadOnly) {
   ASSERT_EQ(run().exit_code, 0);
   fs::remove_all(out());
   const std::string said = in_namespace(
@@ -82,7 +82,7 @@ TEST_F(Disk, ServesWhatItHasIfItIsReadOnly) {
   EXPECT_THAT(said, HasSubstr("all whole\n0\n"));
 }
 
-TEST_F(Disk, SaysThatItIsReadOnlyWhereSomethingIsMissing) {
+TEST_F(Disk, ExplainsAMissingFileOnAReadOnlyDisk) {
   ASSERT_EQ(run().exit_code, 0);
   fs::remove_all(result_of("n16", "reference-povray"));
   const std::string said = in_namespace(

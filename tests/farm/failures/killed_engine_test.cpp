@@ -39,7 +39,7 @@ class KilledEngine : public FailingFarm {
   }
 };
 
-TEST_F(KilledEngine, IsStartedAgainAndTheRecordSaysSo) {
+TEST_F(KilledEngine, RecordsItsRestart) {
   RunningFarm farm(command(), root());
   for (const char* program : {"povray", "blender"}) {
     const auto at_work = wait_for(program, farm);

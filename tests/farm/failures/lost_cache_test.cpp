@@ -142,7 +142,7 @@ TEST_F(LostCache, GivesWayToACellsFileWhereADirectoryIsEmpty) {
   }
 }
 
-TEST_F(LostCache, IsRefusedWithALinkForAnyPartAndTheTargetStays) {
+TEST_F(LostCache, IsRefusedWithALinkForAnyPart) {
   const fs::path outside = root() / "outside";
   fs::create_directories(outside / "0123456789abcdef");
   fs::create_directories(outside / "n16");
@@ -182,7 +182,7 @@ TEST_F(LostCache, IsRefusedWithALinkForAnyPartAndTheTargetStays) {
   }
 }
 
-TEST_F(LostCache, DryRunsListWhatWouldGoAndTakeNothing) {
+TEST_F(LostCache, IsOnlyListedInADryRun) {
   grid({"8", "16"});
   ASSERT_EQ(run().exit_code, 0);  // n32 and n64 are foreign now
   const auto dead = fs::path("making") / "0123456789abcdef";

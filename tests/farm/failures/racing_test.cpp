@@ -61,7 +61,7 @@ TEST_F(RacingFarms, GoOnWhenOneOfThemIsKilled) {
   expect_mended(run(), 0);
 }
 
-TEST_F(RacingFarms, AreSeenByStatusAndNotDisturbedByGcOrByThatTheyAreLookedAt) {
+TEST_F(RacingFarms, AreNotDisturbedByStatusOrGc) {
   fake_povray(waits());
   RunningFarm farm(command(), root());
   wait_for_pictures(1, farm);

@@ -60,7 +60,7 @@ TEST_F(ChunkReportFiles, NameTheHostWhereSlurmNamesNoNode) {
   EXPECT_EQ(own_node_name(), "rack-7.node_3");
 }
 
-TEST_F(ChunkReportFiles, AreBoundedWhatEverAnEngineSays) {
+TEST_F(ChunkReportFiles, AreBoundedForAnyEngine) {
   std::vector<LeftUndone> left(300, {"povray", std::string(10000, 'x') + "\n\x1b[2J"});
   write_chunk_report(run(), 1, left);
   EXPECT_LT(fs::file_size(file("1.json")), 64u << 10);

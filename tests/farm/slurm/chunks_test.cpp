@@ -38,7 +38,7 @@ Case random_case(unsigned seed) {
 
 const unsigned kCases = 1500u * unsigned(more_samples());
 
-TEST(Chunks, HoldEachJobOnceAndAreNeitherTooManyNorTooLight) {
+TEST(Chunks, HoldEachJobOnceWithinTheirBounds) {
   bool bound_was_reached = false;
   int several = 0;
   for (unsigned seed = 0; seed < kCases; ++seed) {

@@ -29,31 +29,6 @@ class SlurmCluster : public testing::Test {
   SlurmRunOptions options = quick(said);
 };
 
-TEST_F(SlurmCluster, MakesEverythingOnceAndASecondRunSubmitsNothing) {
-  ToyWork toy(directory.path(), 30, 0.1);
-  toy.add({"compared", 1, 0.1, "compare"});
-  auto outcome = run_on_slurm(toy.work(), options);
-  EXPECT_THAT(outcome.missing, IsEmpty());
-  EXPECT_EQ(outcome.rounds, 1);
-  EXPECT_EQ(toy.results(), toy.wanted());
-  EXPECT_THAT(toy.started(), SizeIs(31));
-  EXPECT_EQ(toy.started().back(), "compared");  // it waited for the pictures
-  EXPECT_TRUE(eventually([&] { return toy.finished() == "31\n"; }));
-  outcome = run_on_slurm(toy.work(), options);
-  EXPECT_EQ(outcome.rounds, 0);
-  EXPECT_THAT(toy.started(), SizeIs(31));
-}
-
-TEST_F(SlurmCluster, KeepsTheRestWhereOneJobFails) {
-  ToyWork toy(directory.path(), 10, 0.05);
-  toy.add({"broken", 0, 0.05, "toy"});
-  options.rounds = 2;
-  const auto outcome = run_on_slurm(toy.work(), options);
-  EXPECT_EQ(outcome.missing, std::vector<std::string>{"broken"});
-  EXPECT_THAT(toy.results(), SizeIs(10));
-  EXPECT_THAT(said, HasSubstr("FAILED (NonZeroExitCode)"));
-}
-
 TEST_F(SlurmCluster, IsFoundFitByTheDoctor) {
   DoctorOptions checked;
   checked.directory = directory.path();
@@ -108,7 +83,7 @@ TEST_F(SlurmCluster, SaysItselfThatNoNodeIsLeft) {
   EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("not available"));
 }
 
-TEST_F(SlurmCluster, GivesTwiceTheTimeToWhatWasKilledForIt) {
+TEST_F(SlurmCluster, GivesKilledJobsTwiceTheTime) {
   ToyWork toy(directory.path(), 6, 0.1);
   toy.add({"slow", 0, 2, "toy"});
   options.chunks.target_seconds = 1;

@@ -42,7 +42,7 @@ class Doctor : public FakeSlurm {
   DoctorOptions checked;
 };
 
-TEST_F(Doctor, FindsNothingWrongWhereNothingIsAndLeavesNothingBehind) {
+TEST_F(Doctor, FindsNothingWrongWithASoundCluster) {
   const auto checks = doctor(checked);
   EXPECT_EQ(worst_of(checks), Verdict::kOk) << doctor_text(checks);
   EXPECT_EQ(checks.size(), 12u) << doctor_text(checks);
@@ -50,7 +50,7 @@ TEST_F(Doctor, FindsNothingWrongWhereNothingIsAndLeavesNothingBehind) {
   EXPECT_THAT(doctor_text(checks), HasSubstr("ok       hard links on a node: they work\n"));
 }
 
-TEST_F(Doctor, NamesProgramsThatAreAbsentAndAsksNothingFurther) {
+TEST_F(Doctor, NamesAbsentProgramsFirst) {
   fs::remove(bin() / "sinfo");
   ::setenv("PATH", bin().c_str(), 1);
   const auto complaint = only_complaint();
@@ -75,7 +75,7 @@ TEST_F(Doctor, SeesLimitsThatHurt) {
   EXPECT_EQ(only_complaint().name, "SlurmdTimeout");
 }
 
-TEST_F(Doctor, SeesAPartitionThatIsNotThereOrHasNoNodeOfUse) {
+TEST_F(Doctor, SeesAPartitionWithoutUsableNodes) {
   checked.slurm.partition = "none";
   EXPECT_THAT(only_complaint().found, HasSubstr("'none'"));
   checked.slurm.partition = "";
@@ -88,7 +88,7 @@ TEST_F(Doctor, QuotesAJobThatIsRefused) {
   EXPECT_THAT(only_complaint().found, HasSubstr("Invalid account"));
 }
 
-TEST_F(Doctor, SeesAJobThatEndsWithoutAnAnswerAndOneThatNeverStarts) {
+TEST_F(Doctor, SeesAJobWithoutAnAnswer) {
   fake("sbatch", "echo 100");
   auto complaint = only_complaint();
   EXPECT_THAT(complaint.found, HasSubstr("left no answer"));

@@ -74,7 +74,7 @@ TEST_F(FakeSlurmEndings, NameTheOptionAfterATimeLimitThatNobodyAskedFor) {
   for (const std::string& array : arrays()) EXPECT_THAT(array, Not(HasSubstr("--time")));
 }
 
-TEST_F(FakeSlurmEndings, GetTwiceTheMemoryUpToWhatANodeHas) {
+TEST_F(FakeSlurmEndings, GetTwiceTheMemoryUpToThatOfANode) {
   options.slurm.memory = "3G";
   elements_end("0|OUT_OF_MEMORY|OutOfMemory|n1", "--mem=8000M");
   EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
@@ -107,7 +107,7 @@ TEST_F(FakeSlurmEndings, GetTwiceTheMemoryIfOnlyTheLogSaysSo) {
   EXPECT_THAT(arrays().back(), HasSubstr("--mem=1G")) << "a link is not followed";
 }
 
-TEST_F(FakeSlurmEndings, GetTwiceWhatTheRoundOfAnEarlierClientAskedFor) {
+TEST_F(FakeSlurmEndings, DoubleTheLimitsOfAnEarlierClient) {
   options.slurm.time = "1:00:00";
   options.rounds = 2;
   elements_end("0|TIMEOUT|TimeLimit|n1", "--time=4:00:00");

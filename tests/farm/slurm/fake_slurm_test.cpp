@@ -83,7 +83,7 @@ TEST_F(FakeSlurm, IsAskedOnceForPicturesThenComparisonsThenTheEnd) {
   EXPECT_EQ(lines("submitted").size(), 3u);
 }
 
-TEST_F(FakeSlurm, GetsWhatIsMissingAgainForThreeRoundsUnderNewNumbers) {
+TEST_F(FakeSlurm, GetsMissingJobsAgainForThreeRounds) {
   jobs(2);
   toy.add({"broken", 0, 0, "toy"});
   auto outcome = run_on_slurm(toy.work(), options);
@@ -156,7 +156,7 @@ TEST_F(FakeSlurm, IsNamedIfItIsNotThere) {
   EXPECT_THAT(message, AllOf(HasSubstr("sbatch"), HasSubstr("sinfo"), HasSubstr("$PATH")));
 }
 
-TEST_F(FakeSlurm, IsAttachedToAndGivenNothingWhileJobsOfTheRunLive) {
+TEST_F(FakeSlurm, GetsNothingNewWhileTheRunLives) {
   jobs(1);
   fake("squeue", R"(
 case "$*" in *--me*) [ -e "$d/done" ] || echo '55|RUNNING|lobelia 1-0'; exit 0;; esac
@@ -286,7 +286,7 @@ TEST_F(FakeSlurm, IsLeftByASecondCtrlCThatNamesTheJobs) {
               HasSubstr("left running: job 100 (scancel --me --name=lobelia-"));
 }
 
-TEST_F(FakeSlurm, IsGivenPathsWithAPercentSignAndNoneWithABackslash) {
+TEST_F(FakeSlurm, IsGivenNoPathWithABackslash) {
   ToyWork odd(in("50% of it's"), 1, 0);
   run_on_slurm(odd.work(), options);
   EXPECT_EQ(odd.results(), odd.wanted());
@@ -304,7 +304,7 @@ TEST_F(FakeSlurm, RunsNoChunkThatWasChangedAfterItWasSubmitted) {
   EXPECT_THAT(toy.started(), IsEmpty());
 }
 
-TEST_F(FakeSlurm, GetsNoScriptThatAnotherHasPutIntoTheRunsDirectory) {
+TEST_F(FakeSlurm, GetsNoForeignScript) {
   jobs(1);
   fs::rename(bin() / "sbatch", bin() / "sbatch.good");
   fake("sbatch", R"(for s in "$d"/toy/run/submit/*.sh; do echo ": > '$d/evil'" > "$s"; done
@@ -340,7 +340,7 @@ TEST_F(FakeSlurm, NeverHearsTheNameOfAnotherRunsJobsFromAForgedRecord) {
   EXPECT_EQ(slurm_status(toy.run_directory()).foreign, "");
 }
 
-TEST_F(FakeSlurm, FindsARunByEachPathOfItsDirectoryAndByTheNameOfEarlierVersions) {
+TEST_F(FakeSlurm, FindsARunByAnyPathOfItsDirectory) {
   jobs(1);
   options.detach = true;
   const fs::path link = in("link");
@@ -360,7 +360,7 @@ TEST_F(FakeSlurm, FindsARunByEachPathOfItsDirectoryAndByTheNameOfEarlierVersions
   EXPECT_NE(slurm_status(toy.run_directory()).foreign, "");
 }
 
-TEST_F(FakeSlurm, IsNotWaitedForWhenDetachedAndTellsHowTheRunStands) {
+TEST_F(FakeSlurm, ReportsTheStateOfADetachedRun) {
   jobs(1);
   EXPECT_EQ(slurm_status(toy.run_directory()).name, "");
   options.detach = true;

@@ -53,7 +53,7 @@ class FarmOnCluster : public FailingFarm {
   Results local_results_;
 };
 
-TEST_F(FarmOnCluster, MakesWhatTheLocalFarmMakesThoughItsControllerIsAwayForAWhile) {
+TEST_F(FarmOnCluster, SurvivesAnAbsenceOfItsController) {
   RunningFarm farm(on_slurm(), root());
   ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
   cluster_.stop_controller();
@@ -150,7 +150,7 @@ class FarmOnClusterOfMyEngine : public FarmOnCluster {
   }
 };
 
-TEST_F(FarmOnClusterOfMyEngine, MakesWhatTheLocalFarmMakesAndMakesItOnce) {
+TEST_F(FarmOnClusterOfMyEngine, MatchesTheLocalFarm) {
   const FarmRun refused = run_command(on_slurm());
   EXPECT_EQ(refused.exit_code, 2) << refused.output;
   std::vector<std::string> words = on_slurm();
@@ -170,7 +170,7 @@ class FarmOnClusterWithLimits : public FarmOnCluster {
   void bring_up() override { cluster_.up_with_memory_limits(); }
 };
 
-TEST_F(FarmOnClusterWithLimits, MakesWithMoreMemoryWhatWasKilledForIt) {
+TEST_F(FarmOnClusterWithLimits, RepeatsKilledJobsWithMoreMemory) {
   // 700 MB that tail keeps until Slurm ends it all.
   fake_povray("case $cell in n20) if " + first_times("hungry", 1) +
               "; then { head -c 700000000 /dev/zero; sleep 3600; } | tail -c 700000000 > "

@@ -82,7 +82,7 @@ TEST_F(HostileRun, StartsNoProgramOfItsGridWithoutLeave) {
   EXPECT_TRUE(is_untouched());
 }
 
-TEST_F(HostileRun, TrustsAGridOfTheUserNoMoreThanTheRecordThatNamesIt) {
+TEST_F(HostileRun, TrustsAGridNoMoreThanItsRecord) {
   grid("16", "<engine name=\"mine\" command=\"evil {scene} {out}\"/>");
   make_directories(here("trusted"));
   fs::rename(here("grid.xml"), here("trusted/grid.xml"));
@@ -117,7 +117,7 @@ TEST_F(HostileRun, WritesThroughNoLinkInItsFolder) {
   EXPECT_TRUE(fs::is_empty(here("elsewhere")));
 }
 
-TEST_F(HostileRun, IsNotEndedByARecordThatWasChangedAfterItsLastElementWasSubmitted) {
+TEST_F(HostileRun, IsNotEndedByALateChangeOfItsRecord) {
   grid("16");
   const records::FarmRun planned = record_;
   const auto change = [&](auto member, const std::string& to) {

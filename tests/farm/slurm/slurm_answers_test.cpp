@@ -138,7 +138,7 @@ TEST(SlurmAnswers, AreReadOrRefusedFromRandomBytes) {
   }
 }
 
-TEST(SlurmAnswers, TellWhatWaitsForSomebodyFromWhatWaitsForItsTurn) {
+TEST(SlurmAnswers, TellBlockedJobsFromQueuedOnes) {
   for (const char* reason :
        {"JobHeldUser", "JobHeldAdmin", "launch failed requeued held", "PartitionDown",
         "job requeued in held state held", "DependencyNeverSatisfied"})
@@ -167,7 +167,7 @@ TEST(SlurmOptions, BecomeArgumentsOfSbatch) {
   EXPECT_EQ(sbatch_arguments({}), Lines{"--cpus-per-task=1"});
 }
 
-TEST(SlurmOptions, AskForMemoryForAJobOnEachProcessorAndForTheProgram) {
+TEST(SlurmOptions, AskForMemoryForAllProcessors) {
   EXPECT_EQ(memory_of_element(std::uint64_t{4} << 30, 1), "4608M");
   EXPECT_EQ(memory_of_element((std::uint64_t{1} << 30) + 1, 4), "4612M");
   EXPECT_EQ(memory_of_element(0, 4), "") << "any amount is not asked for";

@@ -34,7 +34,7 @@ TEST(SlurmLimits, AreWrittenSoThatTheyReadBack) {
   EXPECT_EQ(slurm_memory_text(1500), "1500M");
 }
 
-TEST(SlurmLimits, AreDoubledUpToWhatCanBeHad) {
+TEST(SlurmLimits, AreDoubledUpToTheMaximum) {
   EXPECT_EQ(twice_at_most(60, {}), 120);
   EXPECT_EQ(twice_at_most(60, 100), 100);
   EXPECT_EQ(twice_at_most(60, 60), std::nullopt);

@@ -42,7 +42,6 @@ class TestCluster {
   void resume(const std::string& nodes) const {
     slurm({"scontrol", "update", "NodeName=" + nodes, "State=RESUME"});
   }
-  /// The output of one of Slurm's programs.
   std::string slurm(std::vector<std::string> arguments) const {
     arguments.front() = find_program(arguments.front()).string();
     const ProcessResult result = run_process(arguments, {});

@@ -57,7 +57,7 @@ TEST(DirectionalAlbedo, IsForTheFirstPowerTheSkyAsATiltedPlaneSeesIt) {
         << degrees;
 }
 
-TEST(DirectionalAlbedo, IsTheSameForLightAndEyeExactlyWhereTheModelCarriesTheCosine) {
+TEST(DirectionalAlbedo, IsTheSameForLightOrEyeOnlyWithTheCosine) {
   for (const Highlight& h : some_of(highlights_of_both(every_model(), kExponents))) {
     double largest = 0;
     for (const double degrees : kIncidences) {
@@ -102,7 +102,7 @@ TEST(EveryModel, ReturnsMoreThanArrivesTowardsGrazingExactlyWhereItLacksTheCosin
   }
 }
 
-TEST(LargestAlbedo, IsReachedWhereItSaysAndExceededNowhere) {
+TEST(LargestAlbedo, IsReachedAtItsStatedAngle) {
   for (const Highlight& h : some_of(highlights(every_model(), std::vector{0.1, 16.0, 1e4}), 13)) {
     const AlbedoPeak seen = largest_albedo(h), of_light = largest_albedo_of_light(h);
     EXPECT_NEAR(directional_albedo(h, seen.incidence), seen.albedo, 1e-9) << text(h);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSomeIncidences[] = {0, 30, 60, 85, 89.9};
 
-TEST(EverySample, IsADirectionWithTheRadianceAndThePdfThatItSays) {
+TEST(EverySample, HasItsStatedRadianceAtItsStatedPdf) {
   const Frame frame;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);

@@ -51,7 +51,7 @@ bool lit(const Scene& scene) {
   return std::any_of(image.values().begin(), image.values().end(), [](float v) { return v > 0; });
 }
 
-TEST(Fused, EveryHighlightLightAndEffectIsBitForBitThatOfSingleKernels) {
+TEST(Fused, EveryHighlightIsBitForBitThatOfSingleKernels) {
   const std::vector<std::vector<Light>> lightings = {
       {white()}, {directional()}, {point()}, {directional(), point()}, {point(), white(), point()}};
   std::size_t number = 0;
@@ -102,7 +102,7 @@ TEST(Fused, ASphereAnywhereIsTheSame) {
   EXPECT_GT(shown, 50);
 }
 
-TEST(Fused, ALightNearTheSurfaceIsTheSameAndOneOnItIsLeftToWaves) {
+TEST(Fused, LeavesLightsOnASurfaceToWaves) {
   Scene scene = one_sphere(65, 65);
   for (const double z : {0.5, 1 + 1e-8, 1.01}) {
     scene.lights = {PointLight{{0, 0, z}, {1, 1, 1}}};
@@ -116,7 +116,7 @@ TEST(Fused, ALightNearTheSurfaceIsTheSameAndOneOnItIsLeftToWaves) {
   }
 }
 
-TEST(Fused, TracesOnlyWhereASphereCanBeAndWhereItsHighlightReaches) {
+TEST(Fused, TracesOnlyPixelsWithinReach) {
   Scene scene = one_sphere(1024, 1024);
   const auto share = [&] {
     const FusedRenderer fused(scene, make_plan(scene, EffectPolicy::kAsCalledFor));

@@ -12,7 +12,6 @@ constexpr double kAllExponents[] = {kMinExponent, 0.1, 0.9, 1,   1.1, 2,        
                                     16,           54,  128, 1e3, 1e4, kMaxExponent};
 constexpr double kLast = 1 - 0x1p-53;  ///< the largest of the numbers in [0, 1)
 
-/// Calls f(name, lobe) for every lobe type, with every order of a family.
 void for_every_lobe(double n, auto&& f) {
   int count = 0;
   map_types<int>(HWY_NAMESPACE::Lobes{}, [&]<class L>() {

@@ -13,7 +13,7 @@ std::vector<double> abscissae(double n) {
   return s;
 }
 
-TEST(EveryLobe, IsOneInTheMiddleAndFallsByNormalNumbersToZeroAtARightAngle) {
+TEST(EveryLobe, FallsFromOneToZeroByNormalNumbers) {
   for (const LobeId& lobe : lobes())
     for (const double n : kExponents) {
       EXPECT_EQ(lobe_value(lobe, 0, n), 1) << info(lobe).name << " n = " << n;

@@ -58,7 +58,7 @@ double irradiance(const Light& light, Vec3 point, Vec3 normal) {
   return light_there.irradiance.r * std::max(0.0, dot(normal, light_there.to_light));
 }
 
-TEST(LightTree, DrawsEachLightAsOftenAsItSaysAndEveryOneThatShines) {
+TEST(LightTree, DrawsEveryLightWithItsStatedProbability) {
   Random random(2);
   for (int set = 0; set < 40; ++set) {
     const auto lights = many(random, set % 2 == 0, 70);

@@ -15,7 +15,7 @@ double textbook_shadowing(double exponent, double n_dot_l, double n_dot_v) {
   return 1 / ((1 + lambda(n_dot_l) + lambda(n_dot_v)) * n_dot_l * n_dot_v);
 }
 
-TEST(EveryModel, CarriesCosineAndShadowingExactlyWhereItsCatalogueEntrySaysSo) {
+TEST(EveryModel, HasTheFactorsOfItsCatalogueEntry) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents))
     for (const double n_dot_l : {1e-9, 0.25, 0.5, 1.0})
       for (const double n_dot_v : {1e-9, 0.3, 1.0}) {
@@ -35,7 +35,7 @@ TEST(EveryModel, IsDarkWhereTheLightIsBelowTheHorizon) {
       EXPECT_EQ(highlight_radiance(h, n_dot_l, 0.5, 0), 0) << text(h);
 }
 
-TEST(EveryModel, IsFiniteAndNotNegativeForAnyTwoDirectionsAboveTheHorizon) {
+TEST(EveryModel, IsFiniteWithoutNegativesAboveTheHorizon) {
   const Frame frame;
   for (const Highlight& h : highlights_of_both(every_model(), kExponents)) {
     const Reflector reflector({"", h, {1, 1, 1}, {0.5, 0.5, 0.5}, Fresnel::kSchlick});
@@ -48,7 +48,7 @@ TEST(EveryModel, IsFiniteAndNotNegativeForAnyTwoDirectionsAboveTheHorizon) {
   }
 }
 
-TEST(EveryModel, AnswersZeroToWhatIsNoDirectionOrBelowTheHorizon) {
+TEST(EveryModel, IsZeroBelowTheHorizonOrForNoDirection) {
   const Vec3 up{0, 0, 1}, down{0.1, 0, -1}, aside{1, 0, 0};
   const Vec3 none[] = {{0, 0, 0}, {kInfinity, 0, 1}, {0, std::nan(""), 1}};
   for (const Highlight& h : highlights(every_model(), std::vector{16.0})) {

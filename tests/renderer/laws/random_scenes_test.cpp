@@ -231,7 +231,7 @@ TEST(RandomScenes, HardlyChangeWithAMirrorThatHardlyReflects) {
   EXPECT_GT(mirrors, 50);
 }
 
-TEST(RandomScenes, AreTheSameBitForBitByFusedKernelsAndInAnyNumberOfThreads) {
+TEST(RandomScenes, AreTheSameBitForBitByFusedKernels) {
   int fused = 0;
   const auto law = [&](const Scene& scene, Random&) {
     RenderOptions other;

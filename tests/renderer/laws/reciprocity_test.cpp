@@ -37,7 +37,7 @@ TEST(EveryBrdf, IsTheSameWithLightAndEyeExchanged) {
   }
 }
 
-TEST(ReciprocityGap, IsRoundingForEveryBrdfAndLargeForEveryRdfUntilTheLobeTellsNoLightFromEye) {
+TEST(ReciprocityGap, IsRoundingForBrdfsButLargeForRdfs) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents)) {
     const double gap = reciprocity_gap(h);
     // The gap of an RDF is about the lobe's width over the cosine at the last eye, 85 degrees.

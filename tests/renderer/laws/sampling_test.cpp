@@ -33,11 +33,11 @@ TEST(EverySampler, DrawsAHighlightAsOftenAsItsPdfSays) {
   expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), false);
 }
 
-TEST(EverySampler, DrawsAHighlightOverADiffuseBaseAsOftenAsItsPdfSays) {
+TEST(EverySampler, DrawsDirectionsAsOftenAsItsPdf) {
   expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), true);
 }
 
-TEST(EverySampler, DrawsABlackSurfaceEvenlyAndSaysSo) {
+TEST(EverySampler, DrawsABlackSurfaceEvenly) {
   for (const Highlight& h : highlights(every_model(), std::array{16.0})) {
     Material black = material(h, false);
     black.specular_reflectance = {};

@@ -60,7 +60,7 @@ TEST(RandomSkies, BringTheSameLightAsRaysThatAreDrawnEvenly) {
   }
 }
 
-TEST(RandomSkies, BringTheSameLightByTheSkyAloneAndWithEveryEffectForced) {
+TEST(RandomSkies, GiveTheSameLightWithEveryEffectForced) {
   Random random(12);
   RenderOptions by_light, forced;
   by_light.experiment.directions = Experiment::Directions::kLight;

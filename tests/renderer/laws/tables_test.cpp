@@ -51,7 +51,7 @@ class HighlightTables : public ::testing::Test {
 };
 Json* HighlightTables::table_ = nullptr;
 
-TEST_F(HighlightTables, GiveBetweenTheirExponentsWhatTheRendererGives) {
+TEST_F(HighlightTables, AgreeWithTheRendererBetweenExponents) {
   const std::vector<double> exponents = random_exponents(12);
   const Json truth = as_json(highlight_tables(exponents));
   for (std::size_t e = 0; e < exponents.size(); ++e) {
