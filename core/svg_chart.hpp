@@ -55,9 +55,9 @@ struct Chart {
   std::string description;
   int width = 1200, height = 360;
   double marker_radius = 4.5;
-  ChartAxis x, y;
-  std::vector<ChartBand> bands;
-  std::vector<ChartSeries> series;
+  ChartAxis x = {}, y = {};
+  std::vector<ChartBand> bands = {};
+  std::vector<ChartSeries> series = {};
 };
 
 std::string draw_chart(const Chart& chart);

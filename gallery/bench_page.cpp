@@ -43,9 +43,7 @@ Chart chart_of(std::span<const BenchRun> runs, const BenchGoal& goal, std::size_
       .width = 380,
       .height = 220,
       .x = {"run, the latest last", 0.5, double(runs.size()) + 0.5},
-      .y = {goal.at_least ? "times faster" : "part of what is allowed"},
-      .bands = {},
-      .series = {}};
+      .y = {goal.at_least ? "times faster" : "part of what is allowed"}};
   ChartSeries asked{"goal", {chart.x.from, chart.x.to}, {goal.goal, goal.goal}, 2};
   ChartSeries measured{"measured", {}, {}, 1, true};
   double most = goal.goal;
@@ -101,7 +99,7 @@ void write_left_out(Html& html, const BenchRun& run) {
   }
 }
 
-void write_bench(ViewPage& page, const Bench& bench) {
+void write(ViewPage& page, const Bench& bench, const RunFiles&) {
   Html& html = page.main;
   write_lead(
       html, kTitle,
@@ -141,14 +139,10 @@ void write_bench(ViewPage& page, const Bench& bench) {
   write_source(html, "make bench", kRecord);
 }
 
-std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<Bench>(run, kRecord, kTitle,
-                            [](ViewPage& page, const Bench& bench) { write_bench(page, bench); });
-}
-
 }  // namespace
 }  // namespace lobelia::gallery::bench_page
 
 namespace lobelia::gallery {
-extern const View bench_view{"bench", "Speed", "bench.html", bench_page::read_and_draw};
+extern const View bench_view{"bench", "Speed", "bench.html",
+                             page_of(bench_page::kRecord, bench_page::kTitle, bench_page::write)};
 }

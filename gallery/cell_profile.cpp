@@ -64,9 +64,7 @@ Chart radiance_chart(const ShownFarm& farm, const records::Profile& profile) {
               .title = "Radiance over angle",
               .description = "The highlight as each engine drew it, over the formula.",
               .x = angle_axis(profile),
-              .y = {},
-              .bands = zone_bands(profile),
-              .series = {}};
+              .bands = zone_bands(profile)};
   double top = 0;
   for (const auto& [name, values] : in_order(farm, profile)) {
     chart.series.push_back(

@@ -137,15 +137,12 @@ Chart chart_of(const CostTable& table, const CostError& error, const std::string
   return chart;
 }
 
-std::size_t points_in(const Chart& chart) {
-  std::size_t count = 0;
-  for (const ChartSeries& series : chart.series) count += series.markers ? series.x.size() : 0;
-  return count;
-}
-
 /// A point alone shows nothing.
 bool is_drawable(const CostTable& table, const CostError& error) {
-  return points_in(chart_of(table, error, "", false)) > 1;
+  std::size_t points = 0;
+  for (const ChartSeries& series : chart_of(table, error, "", false).series)
+    points += series.markers ? series.x.size() : 0;
+  return points > 1;
 }
 
 /// The cheapest first.
@@ -163,21 +160,19 @@ std::string finding_of(const CostTable& table) {
   if (table.errors.empty() || table.variants.empty()) return "";
   const CostError& error = table.errors.front();
   const std::vector<const CostVariant*> front = front_of(table, error);
+  const auto cost = [&](const CostVariant& variant) {
+    return cost_text(table, cost_of(variant)) + (is_timed(table) ? "" : " " + cost_unit(table));
+  };
   const auto told = [&](const CostVariant& variant) {
     const double value = error_of(variant, error);
-    const std::string size = value == 0 ? "no error" : "an error of " + error_text(value);
-    return fmt::format(
-        "{} and {}",
-        cost_text(table, cost_of(variant)) + (is_timed(table) ? "" : " " + cost_unit(table)), size);
+    return cost(variant) + (value == 0 ? " and no error" : " and an error of " + error_text(value));
   };
   const auto name = [](const CostVariant& variant) {
     return "“" + spoken_name(variant.name) + "”";
   };
   if (table.variants.size() == 1)
     return fmt::format("Only {} was measured, at {}: there is nothing to compare it with.",
-                       name(table.variants[0]),
-                       cost_text(table, cost_of(table.variants[0])) +
-                           (is_timed(table) ? "" : " " + cost_unit(table)));
+                       name(table.variants[0]), cost(table.variants[0]));
   if (front.empty()) return "";
   const CostVariant &cheap = *front.front(), &exact = *front.back();
   if (front.size() == 1)
@@ -295,7 +290,33 @@ void write_table(Html& html, const CostTable& table, std::size_t number) {
   write_words(html, table);
 }
 
-void write_cost(Html& html, const records::Cost& cost) {
+/// The step along a front that buys the least accuracy for its time.
+std::string dearest_step(const records::Cost& record) {
+  std::string sentence;
+  double dearest = 0;
+  for (const CostTable& table : record.tables)
+    for (const CostError& error : table.errors) {
+      std::vector<const CostVariant*> front = front_of(table, error);
+      std::erase_if(front, [&](const CostVariant* variant) {
+        return !variant->seconds || error_of(*variant, error) == 0;
+      });
+      for (std::size_t i = 1; i < front.size(); ++i) {
+        const double time = cost_of(*front[i]) / cost_of(*front[i - 1]);
+        const double gain = error_of(*front[i - 1], error) / error_of(*front[i], error);
+        if (time < 1.5 || gain < 2 || std::log(time) / std::log(gain) <= dearest) continue;
+        dearest = std::log(time) / std::log(gain);
+        sentence = fmt::format(
+            "The most expensive accuracy: “{}” takes {} times as long as “{}”, for an error {} times "
+            "as small ({}).",
+            spoken_name(front[i]->name), number_text(time, 2), spoken_name(front[i - 1]->name),
+            number_text(gain, 2), math_text(table.title));
+      }
+    }
+  return sentence;
+}
+
+void write(ViewPage& page, const records::Cost& cost, const RunFiles& run) {
+  Html& html = page.main;
   write_lead(html, kTitle,
              "Each table has every variant of one thing, with its error and its time. Times are "
              "medians of interleaved rounds, ± half the spread between quartiles. On the front are "
@@ -323,46 +344,14 @@ void write_cost(Html& html, const records::Cost& cost) {
   }
   const Tag list(html, "dl");
   for (const auto& [name, value] : words_of(cost.host)) write_fact(html, name, value);
-}
-
-/// The step along a front that buys the least accuracy for its time.
-std::string dearest_step(const records::Cost& record) {
-  std::string sentence;
-  double dearest = 0;
-  for (const CostTable& table : record.tables)
-    for (const CostError& error : table.errors) {
-      std::vector<const CostVariant*> front = front_of(table, error);
-      std::erase_if(front, [&](const CostVariant* variant) {
-        return !variant->seconds || error_of(*variant, error) == 0;
-      });
-      for (std::size_t i = 1; i < front.size(); ++i) {
-        const double time = cost_of(*front[i]) / cost_of(*front[i - 1]);
-        const double gain = error_of(*front[i - 1], error) / error_of(*front[i], error);
-        if (time < 1.5 || gain < 2 || std::log(time) / std::log(gain) <= dearest) continue;
-        dearest = std::log(time) / std::log(gain);
-        sentence = fmt::format(
-            "The most expensive accuracy: “{}” takes {} times as long as “{}”, for an error {} times "
-            "as small ({}).",
-            spoken_name(front[i]->name), number_text(time, 2), spoken_name(front[i - 1]->name),
-            number_text(gain, 2), math_text(table.title));
-      }
-    }
-  return sentence;
-}
-
-std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<records::Cost>(
-      run, kRecord, kTitle, [&](ViewPage& page, const records::Cost& record) {
-        write_cost(page.main, record);
-        page.finding = dearest_step(record);
-        if (file_type_at(run / kCsv) == std::filesystem::file_type::regular)
-          page.files.push_back(kCsv);
-      });
+  page.finding = dearest_step(cost);
+  if (file_type_at(run / kCsv) == std::filesystem::file_type::regular) page.files.push_back(kCsv);
 }
 
 }  // namespace
 }  // namespace lobelia::gallery::cost_page
 
 namespace lobelia::gallery {
-extern const View cost_view{"cost", "Cost", "cost.html", cost_page::read_and_draw};
+extern const View cost_view{"cost", "Cost", "cost.html",
+                            page_of(cost_page::kRecord, cost_page::kTitle, cost_page::write)};
 }

@@ -189,7 +189,7 @@ records::ExplorerPage page_data(HighlightTables tables) {
   return tables;
 }
 
-void draw(ViewPage& page, const HighlightTables& tables) {
+void write(ViewPage& page, const HighlightTables& tables, const RunFiles&) {
   require_drawable(tables);
   const std::size_t at = nearest(tables.exponents, kShown);
   Html& html = page.main;
@@ -224,14 +224,11 @@ void draw(ViewPage& page, const HighlightTables& tables) {
   page.data = records::record_line(page_data(tables));
 }
 
-std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<HighlightTables>(run, kRecord, kTitle, draw);
-}
-
 }  // namespace
 }  // namespace lobelia::gallery::explorer_page
 
 namespace lobelia::gallery {
-extern const View explorer_view{"explorer", "Explorer", "explorer.html",
-                                explorer_page::read_and_draw};
+extern const View explorer_view{
+    "explorer", "Explorer", "explorer.html",
+    page_of(explorer_page::kRecord, explorer_page::kTitle, explorer_page::write)};
 }

@@ -79,9 +79,7 @@ Chart chart_of(const PaperFigure& figure) {
               .width = 760,
               .height = 400,
               .x = axis(figure.x),
-              .y = axis(figure.y),
-              .bands = {},
-              .series = {}};
+              .y = axis(figure.y)};
   for (const auto& [title, from, to] : figure.bands) chart.bands.push_back({from, to, title});
   for (const auto& [name, style, x, y] : figure.series) chart.series.push_back({name, x, y, style});
   return chart;
@@ -211,7 +209,7 @@ void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim
   write_links(html, "Shows: ", links);
 }
 
-void draw(ViewPage& page, const VerifyPaper& record) {
+void write(ViewPage& page, const VerifyPaper& record, const RunFiles&) {
   const std::vector<Claim>& claims = record.claims;
   std::vector<PaperFigure> figures;
   for (const PaperFigure& figure : record.figures)
@@ -247,13 +245,10 @@ void draw(ViewPage& page, const VerifyPaper& record) {
     page.finding += fmt::format(" It says that {}, but {}.", surprise->statement, surprise->reason);
 }
 
-std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
-}
-
 }  // namespace
 }  // namespace lobelia::gallery::paper_page
 
 namespace lobelia::gallery {
-extern const View paper_view{"paper", "Paper", "paper.html", paper_page::read_and_draw};
+extern const View paper_view{"paper", "Paper", "paper.html",
+                             page_of(paper_page::kRecord, paper_page::kTitle, paper_page::write)};
 }

@@ -150,7 +150,7 @@ std::string finding_of(const LobeSearch& found) {
   return told(*best) + (known ? "; " + told(*known) : "") + ".";
 }
 
-void write_search(ViewPage& page, const LobeSearch& found, const std::filesystem::path& run) {
+void write(ViewPage& page, const LobeSearch& found, const RunFiles& run) {
   Html& html = page.main;
   if (found.lobes.empty()) return write_absence(html, "No lobe was found.");
   write_lead(
@@ -170,16 +170,11 @@ void write_search(ViewPage& page, const LobeSearch& found, const std::filesystem
   write_source(html, shell_join(found.command), kRecord);
 }
 
-std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<LobeSearch>(
-      run, kRecord, kTitle,
-      [&](ViewPage& page, const LobeSearch& found) { write_search(page, found, run); });
-}
-
 }  // namespace
 }  // namespace lobelia::gallery::search_page
 
 namespace lobelia::gallery {
-extern const View search_view{"search", "Cheapest lobes", "search.html",
-                              search_page::read_and_draw};
+extern const View search_view{
+    "search", "Cheapest lobes", "search.html",
+    page_of(search_page::kRecord, search_page::kTitle, search_page::write)};
 }

@@ -44,10 +44,7 @@ Chart exponent_chart(const VerifyStability& data) {
       .description = "The largest error of all lobes, textbook and ours, over the exponent.",
       .width = 760,
       .height = 400,
-      .x = {},
-      .y = {"largest error, of the peak", kMinError, kMaxError, true},
-      .bands = {},
-      .series = {}};
+      .y = {"largest error, of the peak", kMinError, kMaxError, true}};
   std::map<double, std::pair<double, double>> worst;
   for (const records::StabilityOfLobe& s : data.by_exponent) {
     if (s.group != kShownGroup || !(s.exponent > 0.0)) continue;
@@ -86,7 +83,6 @@ Chart angle_chart(const StabilityCurve& curve) {
       .x = {"angle between light and mirror direction (degrees)", 0,
             has_angles ? curve.degrees.back() : 1, false},
       .y = {"value, of the peak", 0, most * 1.05, false},
-      .bands = {},
       .series = {{"truth", curve.degrees, curve.truth, 0},
                  {"naive float32", curve.degrees, curve.naive, 2},
                  {"ours", curve.degrees, curve.ours, 1}}};
@@ -129,7 +125,12 @@ std::string curve_finding(const StabilityCurve& curve) {
                      power_text(curve.exponent), textbook, error_text(ours));
 }
 
-void write_chart(Html& html, const Chart& chart, const std::string& words) {
+void write_chart(Html& html, const char* title, const std::string& finding, const Chart& chart,
+                 const std::string& words) {
+  const Tag section(html, "section", {{"class", "charts"}});
+  html.element("h2", title);
+  html.element("p", {{"class", "finding"}}, finding);
+  const Tag grid(html, "div", {{"class", "figure-grid"}});
   const Tag figure(html, "figure", {{"class", "chart-figure"}, {"id", chart.id + "-figure"}});
   html.element("h3", chart.title);
   html.raw(draw_chart(chart));
@@ -138,25 +139,13 @@ void write_chart(Html& html, const Chart& chart, const std::string& words) {
 
 void write_charts(Html& html, const VerifyStability& data) {
   const Chart over_exponent = exponent_chart(data);
-  const StabilityCurve* curve = shown_curve(data);
-  if (over_exponent.series.empty() && !curve) return;
-  if (!over_exponent.series.empty()) {
-    const Tag section(html, "section", {{"class", "charts"}});
-    html.element("h2", "How the error grows");
-    html.element("p", {{"class", "finding"}}, finding_of(data));
-    const Tag grid(html, "div", {{"class", "figure-grid"}});
-    write_chart(html, over_exponent,
+  if (!over_exponent.series.empty())
+    write_chart(html, "How the error grows", finding_of(data), over_exponent,
                 "The worst of all lobes, against a reference of 50 digits. A line at the "
                 "top edge means that the textbook gave no number.");
-  }
-  if (curve) {
-    const Tag section(html, "section", {{"class", "charts"}});
-    html.element("h2", "What it does to one highlight");
-    html.element("p", {{"class", "finding"}}, curve_finding(*curve));
-    const Tag grid(html, "div", {{"class", "figure-grid"}});
-    write_chart(html, angle_chart(*curve),
+  if (const StabilityCurve* curve = shown_curve(data))
+    write_chart(html, "What it does to one highlight", curve_finding(*curve), angle_chart(*curve),
                 fmt::format("A modified Phong highlight of n = {}.", power_text(curve->exponent)));
-  }
 }
 
 void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
@@ -257,7 +246,7 @@ void write_group(Html& html, const VerifyStability& data, const std::string& gro
     if (one.group == group) write_case(html, one);
 }
 
-void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStability& data) {
+void write(ViewPage& page, const VerifyStability& data, const RunFiles& run) {
   Html& html = page.main;
   write_lead(
       html, kTitle,
@@ -296,16 +285,11 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
                         count_text(double(data.outside)), count_text(double(data.cases)));
 }
 
-std::optional<ViewPage> read_and_draw(const RunFiles& run) {
-  return record_page<VerifyStability>(
-      run, kRecord, kTitle,
-      [&](ViewPage& page, const VerifyStability& data) { draw(page, run, data); });
-}
-
 }  // namespace
 }  // namespace lobelia::gallery::stability_page
 
 namespace lobelia::gallery {
-extern const View stability_view{"stability", "Stability", "stability.html",
-                                 stability_page::read_and_draw};
+extern const View stability_view{
+    "stability", "Stability", "stability.html",
+    page_of(stability_page::kRecord, stability_page::kTitle, stability_page::write)};
 }

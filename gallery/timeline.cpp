@@ -57,7 +57,6 @@ void write_timeline(Html& html, const ShownFarm& farm, const Timeline& line) {
               .height = 220,
               .x = {"run, the latest last", 0.5, double(line.points.size()) + 0.5},
               .y = {metric.title},
-              .bands = {},
               .series = {std::move(limit), std::move(measured)}};
   fit_axis(chart.y, chart.series, metric.more_is_better);
   const Tag figure(html, "figure", {{"class", "chart-figure timeline"}, {"tabindex", "0"}});

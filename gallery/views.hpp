@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "core/error.hpp"
@@ -27,7 +28,7 @@ struct View {
   std::string_view title;  ///< in the navigation
   std::string_view file;   ///< "cost.html"
   /// Empty if the run has no record for it. A record that cannot be read becomes a sentence on the page.
-  std::optional<ViewPage> (*draw)(const RunFiles& run);
+  std::function<std::optional<ViewPage>(const RunFiles& run)> draw;
 };
 
 std::span<const View* const> views();
@@ -36,22 +37,24 @@ extern const View explorer_view;  ///< cells link to it
 /// A page that says in place of everything why the record cannot be shown.
 ViewPage unreadable_page(const char* title, const Error& error);
 
-/// The page that `draw` fills from the record in RUN/file; empty if there is no such file. If the record cannot be read
-/// or `draw` throws Error(kInput), the page says so.
+/// View::draw of the page that `write` fills from the record in RUN/file. If that cannot be read or `write` throws
+/// Error(kInput), the page says so.
 template <class T>
-std::optional<ViewPage> record_page(const RunFiles& run, const char* file, const char* title,
-                                    const std::function<void(ViewPage&, const T&)>& draw) {
-  if (file_type_at(run / file) == std::filesystem::file_type::not_found) return std::nullopt;
-  try {
-    records::Origin origin;
-    const T record = read_published<T>(run / file, run.texts, file, &origin);
-    ViewPage page{title, origin.made_by, {}, "", {file}};
-    draw(page, record);
-    return page;
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-    return unreadable_page(title, error);
-  }
+auto page_of(const char* file, const char* title,
+             void (*write)(ViewPage&, const T&, const RunFiles&)) {
+  return [=](const RunFiles& run) -> std::optional<ViewPage> {
+    if (file_type_at(run / file) == std::filesystem::file_type::not_found) return std::nullopt;
+    try {
+      records::Origin origin;
+      const T record = read_published<T>(run / file, run.texts, file, &origin);
+      ViewPage page{title, origin.made_by, {}, "", {file}};
+      write(page, record, run);
+      return page;
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kInput) throw;
+      return unreadable_page(title, error);
+    }
+  };
 }
 
 /// <header> with the title and a sentence below it.

@@ -74,7 +74,6 @@ void write_curve(Html& html, const Check& check) {
        .height = 380,
        .x = {"angle of the normal from the half vector (degrees)", -90, 90},
        .y = {"radiance for unit irradiance", least < 0 ? -round_up(-least) : 0, round_up(most)},
-       .bands = {},
        .series = {{"model", check.curve.degrees, check.curve.model, 0},
                   {check.record.function, check.curve.degrees, check.curve.theirs, 2}}}));
   html.element("figcaption", fmt::format("n = {:g}, with the light 60 degrees from the eye",

@@ -11,23 +11,24 @@ const kStops = {
 export const kColours = { picture: 'viridis', difference: 'inferno', map: 'magma' } as const;
 
 type ColourMap = keyof typeof kStops;
-export const kStopCount = 10;
 
-/** sRGB from 0 to 1, for a shader. */
-export function stopsOf(map: ColourMap): Float32Array {
-  const channels = kStops[map].flatMap((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255));
-  return new Float32Array(channels);
+/** A linear value as a display has it, both from 0 to 1. */
+export const encoded = (v: number): number => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
+
+/** Three numbers a stop, from 0 to 255. */
+export const stopsOf = (map: ColourMap): number[] =>
+  kStops[map].flatMap((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
+
+/** Red, green and blue at `share` of the stops. */
+export function between(stops: readonly number[], share: number): number[] {
+  const last = stops.length / 3 - 1, at = clamp(share, 0, 1) * last, from = Math.min(last - 1, Math.floor(at)), part = at - from;
+  return [0, 1, 2].map((c) => stops[3 * from + c]! * (1 - part) + stops[3 * from + 3 + c]! * part);
 }
+
+export const cssColour = (rgb: readonly number[]): string => `rgb(${rgb.map(Math.round).join(' ')})`;
 
 export function cssGradient(map: ColourMap): string {
   return `linear-gradient(to right, ${kStops[map].map((hex) => '#' + hex).join(', ')})`;
 }
 
-/** The colour at `share` of the map, for a cell of the grid. */
-export function colourAt(map: ColourMap, share: number): string {
-  const stops = stopsOf(map), at = clamp(share, 0, 1) * (kStopCount - 1);
-  const from = Math.min(kStopCount - 2, Math.floor(at)), part = at - from;
-  const channel = (c: number): number =>
-    Math.round(255 * (stops[3 * from + c]! * (1 - part) + stops[3 * from + 3 + c]! * part));
-  return `rgb(${channel(0)} ${channel(1)} ${channel(2)})`;
-}
+export const colourAt = (map: ColourMap, share: number): string => cssColour(between(stopsOf(map), share));

@@ -4,18 +4,17 @@ import type { FigureSource } from '../lib/figure';
 import type { Bar, PictureParts } from '../lib/figure_svg';
 import { numberText, percentText } from '../lib/numbers';
 import { kMeasures } from './choice';
-import { colourAt } from './colours';
+import { colourAt, cssColour, encoded } from './colours';
 import { valueOfMap } from './maps';
 import { kDecades, type ViewerState } from './viewer_state';
 
-const grey = (v: number): string => `rgb(${[0, 0, 0].map(() => Math.round(255 * v)).join(' ')})`;
-const encoded = (v: number): number => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
+const grey = (v: number): string => cssColour([255 * v, 255 * v, 255 * v]);
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
 /** The colour of a signed difference, as float_painter.ts paints it. */
 function signedColour(share: number): string {
   const mean = 2 * share - 1, strength = Math.sqrt(Math.abs(mean)), end = mean > 0 ? [1, 0.45, 0.2] : [0.3, 0.65, 1];
-  return `rgb(${end.map((c) => Math.round(255 * (0.06 * (1 - strength) + c * strength))).join(' ')})`;
+  return cssColour(end.map((c) => 255 * (0.06 * (1 - strength) + c * strength)));
 }
 
 const linear = (top: number, label: string, colour: Bar['colour']): Bar =>

@@ -1,7 +1,7 @@
 // Paints float pictures: each once, in its own size; the browser enlarges it.
 import { h } from '../lib/dom';
 import { clamp } from '../lib/numbers';
-import { kColours, kStopCount, stopsOf } from './colours';
+import { between, encoded, kColours, stopsOf } from './colours';
 import type { FloatPicture } from './half_picture';
 import { drawPanes, type Content, type Look, type Painter, type Pane } from './painter';
 
@@ -13,17 +13,11 @@ const kSteps = 1 << 14, kRampSteps = 1023;
 const kMostKept = 4;  // painted pictures: two, and those that they are flipped with
 
 /** sRGB of linear values from 0 to 1. */
-const encodedOf = (): Float32Array => Float32Array.from({ length: kSteps + 1 }, (_, i) => {
-  const v = i / kSteps;
-  return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
-});
+const encodedOf = (): Float32Array => Float32Array.from({ length: kSteps + 1 }, (_, i) => 255 * encoded(i / kSteps));
 
 function rampOf(kind: Content['kind']): Float32Array {
   const stops = stopsOf(kColours[kind]), ramp = new Float32Array(3 * (kRampSteps + 1));
-  for (let i = 0; i <= kRampSteps; ++i) {
-    const at = i / kRampSteps * (kStopCount - 1), from = Math.min(kStopCount - 2, Math.floor(at)), part = at - from;
-    for (let c = 0; c < 3; ++c) ramp[3 * i + c] = 255 * (stops[3 * from + c]! * (1 - part) + stops[3 * from + 3 + c]! * part);
-  }
+  for (let i = 0; i <= kRampSteps; ++i) ramp.set(between(stops, i / kRampSteps), 3 * i);
   return ramp;
 }
 

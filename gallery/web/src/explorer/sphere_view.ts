@@ -1,5 +1,6 @@
 // The sphere with one highlight or two: the divider between them or their difference, the light and the camera by
 // pointer and keys, and what the float pixels say.
+import { encoded } from '../cell/colours';
 import { announce, button, h, select } from '../lib/dom';
 import { figureButton, type FigureSource } from '../lib/figure';
 import { fileName } from '../lib/figure_text';
@@ -19,7 +20,7 @@ const pixelOf = (red: number, green: number, blue: number): number => (255 << 24
 const colours = (of: (share: number) => number): Uint32Array => Uint32Array.from({ length: kSteps + 1 }, (_, i) => of(i / kSteps));
 const kGround = pixelOf(33, 33, 36);
 const kGrey = colours((v) => {
-  const grey = Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
+  const grey = Math.round(255 * encoded(v));
   return pixelOf(grey, grey, grey);
 });
 const kLarger = colours((v) => pixelOf(255 * v ** 0.5, 115 * v ** 0.5, 51 * v ** 0.5));

@@ -16,7 +16,7 @@ export interface FigureSource {
 
 const isPicture = (content: FigureSource['content']): content is PictureParts => 'picture' in content;
 
-function save(file: string, content: Blob): void {
+export function saveFile(file: string, content: Blob): void {
   const address = URL.createObjectURL(content);
   h('a', { href: address, download: file }).click();
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
@@ -89,10 +89,10 @@ function openPanel(what: string, get: () => FigureSource): void {
     const link = h('input', { readonly: true, 'aria-label': 'Link', value: location.href }), tex = h('textarea', { readonly: true, rows: 7, spellcheck: 'false', 'aria-label': 'LaTeX' }, latex);
     panel.append(h('h2', {}, source.title), h('p', { class: 'figure-caption' }, source.caption),
       h('div', { class: 'controls' },
-        act('PNG', async () => save(name + '.png', await pngOf(source)), `${name}.png is saved.`),
-        act('SVG', () => save(name + '.svg', new Blob([svgOf(source)], { type: 'image/svg+xml' })), `${name}.svg is saved.`),
-        csv && act(`CSV: ${csv.what}`, () => save(name + '.csv', new Blob([csvText(csv.rows())], { type: 'text/csv' })), `${name}.csv is saved.`),
-        act('LaTeX', () => save(name + '.tex', new Blob([latex], { type: 'text/x-tex' })), `${name}.tex is saved.`)),
+        act('PNG', async () => saveFile(name + '.png', await pngOf(source)), `${name}.png is saved.`),
+        act('SVG', () => saveFile(name + '.svg', new Blob([svgOf(source)], { type: 'image/svg+xml' })), `${name}.svg is saved.`),
+        csv && act(`CSV: ${csv.what}`, () => saveFile(name + '.csv', new Blob([csvText(csv.rows())], { type: 'text/csv' })), `${name}.csv is saved.`),
+        act('LaTeX', () => saveFile(name + '.tex', new Blob([latex], { type: 'text/x-tex' })), `${name}.tex is saved.`)),
       h('div', { class: 'figure-copy' }, tex, labelled(copy(latex, tex, 'LaTeX'), 'Copy the LaTeX'), link, labelled(copy(location.href, link, 'link'), 'Copy the link')));
   } catch (error) {
     panel.append(h('p', {}, error instanceof Error ? error.message : String(error)));

@@ -4,6 +4,7 @@ import { AtExponent } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
 import { announce, button, h, select } from '../lib/dom';
+import { saveFile } from '../lib/figure';
 import { clamp, numberText } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import type { HighlightTable, HighlightTables, LobeTable, ModelTable, Operations } from '../records';
@@ -115,10 +116,7 @@ class Explorer {
     }, { 'aria-label': `Copy shader ${name}` });
     const save = button('Save float picture', () => {
       const picture = this.sphere.pfm(suffix ? 1 : 0), chosen = this.chosen(side);
-      if (!picture) return;
-      const address = URL.createObjectURL(picture);
-      h('a', { href: address, download: `${chosen?.model.name}-${chosen?.lobe.name}-${chosen?.at.n}.pfm` }).click();
-      setTimeout(() => URL.revokeObjectURL(address), 60_000);
+      if (picture) saveFile(`${chosen?.model.name}-${chosen?.lobe.name}-${chosen?.at.n}.pfm`, picture);
     }, { 'aria-label': `Save float picture ${name}` });
     const body = h('div', { class: 'choice-body' }, lobe.element, model.element, norm.element,
       h('div', { class: 'exponent' }, h('label', { for: `n${suffix}` }, 'Exponent n'), slider, number), formula,

@@ -1,4 +1,5 @@
 // The hard cases: charts and rows of pictures as figures.
+import { between, cssColour } from '../cell/colours';
 import { h } from '../lib/dom';
 import { addDrawnChartButtons } from '../lib/drawn_chart';
 import { figureButton, type FigureSource } from '../lib/figure';
@@ -15,12 +16,7 @@ export function stability(main: HTMLElement): void {
 }
 
 /** The colours of studies/stability/pictures.cpp, of errors from 10⁻⁸ to 1. */
-const kErrorColours = [[0, 0, 0], [30, 60, 200], [210, 40, 40], [250, 210, 40], [255, 255, 255]] as const;
-
-function errorColour(share: number): string {
-  const at = share * (kErrorColours.length - 1), from = Math.min(kErrorColours.length - 2, Math.floor(at)), part = at - from;
-  return `rgb(${[0, 1, 2].map((c) => Math.round(kErrorColours[from]![c]! * (1 - part) + kErrorColours[from + 1]![c]! * part)).join(' ')})`;
-}
+const kErrorColours = [0, 0, 0, 30, 60, 200, 210, 40, 40, 250, 210, 40, 255, 255, 255];
 
 /** The pictures of a row in one figure. */
 function rowFigure(row: HTMLElement, title: string): FigureSource {
@@ -31,6 +27,6 @@ function rowFigure(row: HTMLElement, title: string): FigureSource {
   const tags = images.map((image) => image.alt), name = fileName('highlight', title);
   return {
     name, title: `Close to a highlight, ${title}`, caption: `A modified Phong highlight that fills the picture, ${title}. From left to right: ${tags.join('; ')}.`,
-    content: { picture, tags, bar: { colour: errorColour, label: 'error of the peak, logarithmic', ticks: [-8, -6, -4, -2, 0].map((power, i) => ({ share: i / 4, label: powerText(power) })) } },
+    content: { picture, tags, bar: { colour: (share) => cssColour(between(kErrorColours, share)), label: 'error of the peak, logarithmic', ticks: [-8, -6, -4, -2, 0].map((power, i) => ({ share: i / 4, label: powerText(power) })) } },
   };
 }
