@@ -31,8 +31,7 @@ std::set<fs::path> places_to_undo(const std::string& given) {
   if (!given.empty()) {
     std::error_code unknown;
     if (!fs::exists(given, unknown) && !is_sequence(given))
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: no such file or folder", printable_path(given)));
+      throw Error(ExitCode::kInput, "{}: no such file or folder", printable_path(given));
     choice.given = {given};
     return places_of_references(choice);
   }

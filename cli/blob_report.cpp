@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/output_files.hpp"
 #include "cli/profile_report.hpp"
 #include "compare/profile/clipping.hpp"
 #include "records/record.hpp"

@@ -42,9 +42,8 @@ ShaderApi api_of(const CheckShaderArguments& options, ShaderText language) {
   if (options.on.empty()) return usual;
   const auto chosen_api = ShaderApi(chosen_place(options.on, "--on", kOnNames));
   if (language != ShaderText::kGlsl && chosen_api != usual)
-    throw Error(ExitCode::kUsage, fmt::format("--on {}: {} runs on {} alone", options.on,
-                                              kShaderTextNames[std::size_t(language)],
-                                              kShaderApiNames[std::size_t(usual)]));
+    throw Error(ExitCode::kUsage, "--on {}: {} runs on {} alone", options.on,
+                kShaderTextNames[std::size_t(language)], kShaderApiNames[std::size_t(usual)]);
   return chosen_api;
 }
 
@@ -55,12 +54,10 @@ shader_check::Request request_of(const CheckShaderArguments& options) {
   request.api = api_of(options, request.language);
   request.function = options.function;
   request.arguments = options.arguments;
-  request.highlight.model =
-      chosen(options.model, "--model", model_names(), join(model_names()), find_model);
+  request.highlight.model = chosen(options.model, "--model", model_names(), find_model);
   request.highlight.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
   request.highlight.normalisation =
-      chosen(options.normalisation, "--normalisation", normalisation_names(),
-             join(normalisation_names()), find_normalisation);
+      chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
   radiance_coefficient(request.highlight);  // throws if the paper has none
   request.exponents = options.exponents;
   // In the middle: neither a blur nor a dot.

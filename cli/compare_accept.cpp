@@ -225,7 +225,7 @@ std::vector<NewReference> new_references(const CompareArguments& options, const 
       else
         look_at(one, [&] { look_at_pair(*problem.pair, job, one); });
     }
-  if (has_folders_by_name(job, pairing))
+  if (pairing.is_by_name)
     for (const PictureRow& row : pairing.rows) {
       if (!pairing.references_of(row).empty()) continue;
       const std::string& folder = job.pictures.given[kReferenceSet];
@@ -268,8 +268,8 @@ HeldDirectory held_folder(const fs::path& folder, const std::vector<NewReference
   std::error_code unknown;
   const fs::path real = fs::read_symlink(fmt::format("/proc/self/fd/{}", root.fd()), unknown);
   if (root && !unknown && real != folder)
-    throw Error(ExitCode::kInput, fmt::format("{}: was moved while it was compared; compare again",
-                                              printable_path(root.path().string())));
+    throw Error(ExitCode::kInput, "{}: was moved while it was compared; compare again",
+                printable_path(root.path().string()));
   return root;
 }
 
@@ -321,8 +321,7 @@ bool ask(const std::vector<NewReference>& list) {
 
 void require_person() {
   const auto refuse = [](const std::string& why) {
-    throw Error(ExitCode::kUsage,
-                fmt::format("--accept: {}; somebody has to look at what changes", why));
+    throw Error(ExitCode::kUsage, "--accept: {}; somebody has to look at what changes", why);
   };
   for (const char* name : kOfCi)
     if (const char* value = std::getenv(name);

@@ -216,7 +216,7 @@ class ReportWriter {
     const Comparison& comparison = *pair.comparison;
     const CompareJob job = job_of(job_, pair.name);
     ComparisonOptions options = job.comparison;
-    const PicturePair read = read_compared(pair, job, pairing_, options);
+    const PicturePair read = read_compared(pair, job, options);
     const double stops = comparison.viewing.exposure_stops;
     if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
     const auto [reading_a, reading_b] = reading_of(pair);
@@ -304,8 +304,8 @@ void require_place(const HtmlReport& html) {
     for (const fs::path& file : {index, html.path / gallery::kSiteList})
       if (file_type_at(file, ExitCode::kOutput) != fs::file_type::not_found)
         throw Error(ExitCode::kOutput,
-                    fmt::format("{}: is there already, and not of a report; choose another folder",
-                                printable_path(file.string())));
+                    "{}: is there already, and not of a report; choose another folder",
+                    printable_path(file.string()));
   require_writable(index);
 }
 

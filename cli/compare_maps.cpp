@@ -104,14 +104,13 @@ void DifferencePicture::add_to(CLI::App& command) {
 void DifferencePicture::check(bool folders, bool has_exposures) const {
   const auto refuse_without_exposures = [&](const char* option, const std::string& id) {
     if (map_of(id).needs_exposures && !has_exposures)
-      throw Error(ExitCode::kUsage, fmt::format("{} {} needs --exposures", option, id));
+      throw Error(ExitCode::kUsage, "{} {} needs --exposures", option, id);
   };
   if (!histogram.empty()) {
     refuse_without_exposures("--histogram-of", histogram_of);
     if (folders) throw Error(ExitCode::kUsage, "--histogram is for two pictures, not for folders");
     if (histogram.extension() != ".svg" && histogram.extension() != ".csv")
-      throw Error(ExitCode::kUsage,
-                  fmt::format("--histogram {} must end in .svg or .csv", histogram.string()));
+      throw Error(ExitCode::kUsage, "--histogram {} must end in .svg or .csv", histogram.string());
   }
   if (path.empty()) return;
   refuse_without_exposures("--diff-of", of);
@@ -121,9 +120,8 @@ void DifferencePicture::check(bool folders, bool has_exposures) const {
   if (folders) return;
   const std::string ending = path.extension().string();
   if (ending != ".png" && !(ending == ".exr" && of != kChannels))
-    throw Error(ExitCode::kUsage,
-                fmt::format("--diff-image {} must end in .png{}", path.string(),
-                            of == kChannels ? "" : " (colours) or .exr (values)"));
+    throw Error(ExitCode::kUsage, "--diff-image {} must end in .png{}", path.string(),
+                of == kChannels ? "" : " (colours) or .exr (values)");
 }
 
 bool DifferencePicture::has_own_scale() const {
@@ -216,7 +214,7 @@ SetReport compare_and_show(const CompareJob& job, const DifferencePicture& wante
     if (own_largest == largest.end() || !(own_largest->second >= 0)) return;
     const CompareJob own = job_of(job, pair.name);
     ComparisonOptions unused = own.comparison;
-    PicturePair pictures = read_compared(pair, own, pairing, unused);
+    PicturePair pictures = read_compared(pair, own, unused);
     if (allows_equal_nonfinite(own.comparison, pictures.b.source))
       clear_equal_nonfinite(pictures.a.image, pictures.b.image);
     write(pair, pictures.a.image, pictures.b.image, of_set);

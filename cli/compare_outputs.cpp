@@ -25,15 +25,15 @@ void add_inputs(const CompareArguments& options, const Pairing& pairing, OutputF
   for (const PairRule& rule : job.rules)
     for (const auto* shapes : {&rule.mask, &rule.ignored})
       for (const fs::path& file : picture_files(*shapes)) outputs.reads(file);
-  const bool by_name = has_folders_by_name(job, pairing);
   for (const PictureRow& row : pairing.rows) {
     for (const std::string& file : row.files) {
       outputs.reads(file);
       for (const std::string& ending : job.pictures.companions)
         if (!file.empty()) outputs.reads(with_ending(file, ending));
     }
-    for (const fs::path& file : job.noise.files(by_name ? row.name : "")) outputs.reads(file);
-    if (!job.c.empty()) outputs.reads(file_of(job.c, by_name ? row.name : ""));
+    for (const fs::path& file : job.noise.files(pairing.is_by_name ? row.name : ""))
+      outputs.reads(file);
+    if (!job.c.empty()) outputs.reads(file_of(job.c, pairing.is_by_name ? row.name : ""));
   }
 }
 
@@ -47,9 +47,9 @@ void require_outside(std::string_view option, const fs::path& directory, const C
   for (const fs::path& folder : folders)
     if (!folder.empty() && is_below(real, real_path(folder)))
       throw Error(ExitCode::kUsage,
-                  fmt::format("{} {}: lies in {}, which is read by this command; choose "
-                              "a folder outside it",
-                              option, directory.string(), folder.string()));
+                  "{} {}: lies in {}, which is read by this command; choose "
+                  "a folder outside it",
+                  option, directory.string(), folder.string());
 }
 
 }  // namespace
@@ -100,23 +100,21 @@ bool prints_report(const CompareArguments& options) {
 
 void write_reports(const CompareArguments& options, const SetReport& report, bool one,
                    FilesTogether& files) {
-  std::string printed;
-  const auto put = [&](const std::string& file, const auto& text) {
-    if (file.empty()) return;
-    if (file == kStdout)
-      printed = text();
-    else
-      write_file(file, text());
+  const auto of = [](const std::string& file, const auto& text) {
+    return std::pair(file, file.empty() ? "" : text());
   };
-  put(options.csv, [&] { return set_csv(report); });
-  put(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); });
-  put(options.markdown, [&] { return set_markdown(report); });
-  if (!one || report.pairs.front().comparison)
-    put(options.json, [&] {
-      return one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
-    });
-  files.commit();
-  fmt::print("{}", printed);
+  const PairReport* const pair = one ? &report.pairs.front() : nullptr;
+  const bool unreadable = pair && !pair->comparison;
+  write_reports(
+      "",
+      {of(options.csv, [&] { return set_csv(report); }),
+       of(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); }),
+       of(options.markdown, [&] { return set_markdown(report); }),
+       of(unreadable ? "" : options.json,
+          [&] {
+            return pair ? record_text(pair_record(*pair)) : record_text(set_record(report));
+          })},
+      files);
 }
 
 }  // namespace lobelia::cli

@@ -21,7 +21,7 @@ struct ConvertArguments {
 
 conversion::ShadingModel shading_model(const std::string& name, std::string_view option) {
   const auto& names = conversion::shading_model_names();
-  return chosen(name, option, names, join(names), conversion::find_shading_model);
+  return chosen(name, option, names, conversion::find_shading_model);
 }
 
 conversion::Request request_of(const ConvertArguments& options) {
@@ -35,9 +35,8 @@ conversion::Request request_of(const ConvertArguments& options) {
   const std::string usual = from_exponent ? "blinn_phong_heightfield" : "ggx";
   request.from = shading_model(options.from.empty() ? usual : options.from, "--from");
   if (given == 1 && request.from.is_ggx() == options.exponent.has_value())
-    throw Error(ExitCode::kUsage,
-                fmt::format("--from {} takes {}", request.from.name(),
-                            request.from.is_ggx() ? "--alpha or --roughness" : "--exponent"));
+    throw Error(ExitCode::kUsage, "--from {} takes {}", request.from.name(),
+                request.from.is_ggx() ? "--alpha or --roughness" : "--exponent");
   request.parameter = options.exponent    ? *options.exponent
                       : options.alpha     ? *options.alpha
                       : options.roughness ? *options.roughness * *options.roughness

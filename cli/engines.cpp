@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdio>
 
 #include "cli/commands.hpp"
@@ -86,24 +85,15 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
 
 /// A row for each model, a column for each engine that is a program.
 void print_models(const std::vector<std::unique_ptr<Engine>>& engines) {
-  std::vector<std::vector<std::string>> columns(1);
-  columns[0] = {"model"};
-  for (const ModelId model : all_models()) columns[0].emplace_back(info(model).title);
+  std::vector<std::vector<std::string>> rows{{"model"}};
+  for (const ModelId model : all_models()) rows.push_back({std::string(info(model).title)});
   for (const auto& engine : engines) {
     const auto models = engine_models(*engine);
     if (models.empty()) continue;
-    auto& column = columns.emplace_back();
-    column.emplace_back(engine->info().name);
-    for (const records::EngineModel& model : models) column.push_back(model.in_short());
+    rows[0].emplace_back(engine->info().name);
+    for (std::size_t i = 0; i < models.size(); ++i) rows[i + 1].push_back(models[i].in_short());
   }
-  for (std::size_t row = 0; row < columns[0].size(); ++row) {
-    std::string line;
-    for (const auto& column : columns) {
-      const std::size_t width = std::ranges::max(column, {}, &std::string::size).size() + 2;
-      line += fmt::format("{:<{}}", column[row], width);
-    }
-    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-  }
+  fmt::print("{}", aligned(rows));
   fmt::print(
       "native: its own highlight, with cos^n and the lobes named; expressed: our formula in its language,\n"
       "with any lobe; both: native with cos^n, expressed with any lobe; -: cannot be compared\n");

@@ -20,21 +20,19 @@ struct ExportArguments {
 
 void run_export(const ExportArguments& options) {
   ShaderExport request;
-  request.language = chosen(options.language, "--language", shader_language_names(),
-                            join(shader_language_names()), find_shader_language);
+  request.language =
+      chosen(options.language, "--language", shader_language_names(), find_shader_language);
   for (const std::string& model : options.models)
-    request.models.push_back(
-        chosen(model, "model", model_names(), join(model_names()), find_model));
+    request.models.push_back(chosen(model, "model", model_names(), find_model));
   request.lobe = options.lobe.lobe().value();
-  request.normalisation = chosen(options.normalisation, "--normalisation", normalisation_names(),
-                                 join(normalisation_names()), find_normalisation);
+  request.normalisation =
+      chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
   request.exponent = options.exponent;
-  request.coefficient = chosen(options.coefficient, "--coefficient", coefficient_from_names(),
-                               join(coefficient_from_names()), find_coefficient_from);
-  request.fresnel =
-      chosen(options.fresnel, "--fresnel", fresnel_names(), join(fresnel_names()), find_fresnel);
-  request.precision = chosen(options.precision, "--precision", shader_precision_names(),
-                             join(shader_precision_names()), find_shader_precision);
+  request.coefficient =
+      chosen(options.coefficient, "--coefficient", coefficient_from_names(), find_coefficient_from);
+  request.fresnel = chosen(options.fresnel, "--fresnel", fresnel_names(), find_fresnel);
+  request.precision =
+      chosen(options.precision, "--precision", shader_precision_names(), find_shader_precision);
   require_lobe({request.models.front(), request.lobe, request.normalisation,
                 request.exponent.value_or(Highlight{}.exponent)});
   const std::string text = shader_text(request);

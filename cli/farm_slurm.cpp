@@ -116,8 +116,7 @@ CLI::App* add_hidden(CLI::App& farm, const std::string& name, const std::string&
 Sha256Digest planned_hash(const std::string& text) {
   Sha256Digest planned;
   if (!from_hex(text, planned))
-    throw Error(ExitCode::kUsage,
-                fmt::format("--sha256: '{}' is not 64 hexadecimal digits", printable(text)));
+    throw Error(ExitCode::kUsage, "--sha256: '{}' is not 64 hexadecimal digits", printable(text));
   return planned;
 }
 

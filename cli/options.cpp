@@ -19,8 +19,8 @@ void replace(const std::optional<Number>& value, std::string_view option, double
   if (!value) return;
   // Written so that a NaN is refused too.
   if (!(double(*value) >= min && double(*value) <= max))
-    throw Error(ExitCode::kUsage, fmt::format("{} {} is out of range; allowed: {:g} to {:g}",
-                                              option, *value, min, max));
+    throw Error(ExitCode::kUsage, "{} {} is out of range; allowed: {:g} to {:g}", option, *value,
+                min, max);
   target = Target(*value);
 }
 
@@ -59,7 +59,7 @@ void add_reading_options(CLI::App& command) {
 
 std::size_t chosen_place(const std::string& value, std::string_view option,
                          std::span<const std::string_view> names) {
-  return chosen(value, option, names, join(names), [&](const std::string& name) {
+  return chosen(value, option, names, [&](const std::string& name) {
     const auto place = std::size_t(std::ranges::find(names, name) - names.begin());
     return place < names.size() ? std::optional(place) : std::nullopt;
   });
@@ -67,9 +67,8 @@ std::size_t chosen_place(const std::string& value, std::string_view option,
 
 std::filesystem::path checked_record_path(const std::filesystem::path& image) {
   if (image.extension() != ".exr")
-    throw Error(ExitCode::kUsage,
-                fmt::format("-o {}: pictures are linear float32; the name must end in .exr",
-                            image.string()));
+    throw Error(ExitCode::kUsage, "-o {}: pictures are linear float32; the name must end in .exr",
+                image.string());
   const auto record = std::filesystem::path(image).replace_extension(".json");
   require_writable(image);
   require_writable(record);
@@ -110,16 +109,16 @@ std::optional<LobeId> LobeOption::lobe() const {
   const std::string name = name_.value_or(formula_ ? std::string(kFormulaLobe) : usual_);
   if (formula_) {
     if (name != kFormulaLobe)
-      throw Error(ExitCode::kUsage, fmt::format("--formula is for --lobe {}, not for '{}'",
-                                                kFormulaLobe, printable(name)));
+      throw Error(ExitCode::kUsage, "--formula is for --lobe {}, not for '{}'", kFormulaLobe,
+                  printable(name));
     try {
       return formula_lobe(*formula_);
     } catch (const FormulaError& e) {
-      throw Error(ExitCode::kUsage, fmt::format("--{}", e.what()));
+      throw Error(ExitCode::kUsage, "--{}", e.what());
     }
   }
   if (name == kFormulaLobe)
-    throw Error(ExitCode::kUsage, fmt::format("--lobe {} needs a --formula", kFormulaLobe));
+    throw Error(ExitCode::kUsage, "--lobe {} needs a --formula", kFormulaLobe);
   if (name.empty() && !name_) return std::nullopt;
   return chosen(name, "--lobe", lobe_names(), allowed_lobes(true), find_lobe);
 }
@@ -149,20 +148,19 @@ void SceneOverrides::apply(Scene& scene) const {
   std::vector<Highlight*> highlights{&unused};
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const highlight : highlights) {
-    if (model_)
-      highlight->model = chosen(*model_, "--model", model_names(), join(model_names()), find_model);
+    if (model_) highlight->model = chosen(*model_, "--model", model_names(), find_model);
     if (lobe) highlight->lobe = *lobe;
     if (normalisation_)
-      highlight->normalisation = chosen(*normalisation_, "--normalisation", normalisation_names(),
-                                        join(normalisation_names()), find_normalisation);
+      highlight->normalisation =
+          chosen(*normalisation_, "--normalisation", normalisation_names(), find_normalisation);
     replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight->exponent);
     if (highlight != &unused) require_lobe(*highlight);
   }
   replace(width_, "--width", 1, kMaxImageSide, scene.film.width);
   replace(height_, "--height", 1, kMaxImageSide, scene.film.height);
   if (std::int64_t{scene.film.width} * scene.film.height > kMaxFilmPixels)
-    throw Error(ExitCode::kUsage, fmt::format("{} x {} pixels are too many; allowed: {} in all",
-                                              scene.film.width, scene.film.height, kMaxFilmPixels));
+    throw Error(ExitCode::kUsage, "{} x {} pixels are too many; allowed: {} in all",
+                scene.film.width, scene.film.height, kMaxFilmPixels);
   replace(samples_, "--samples", 1, 65536, scene.sampler.sample_count);
   replace(seed_, "--seed", 0, 0x1p53, scene.sampler.seed);  // what a scene file can hold
 }
@@ -186,8 +184,8 @@ std::optional<bool> FilterOption::apply(Film& film) const {
   if (comma == std::string::npos) return true;
   if (!parse_number(std::string_view(text_).substr(comma + 1), film.filter.radius) ||
       !(film.filter.radius >= kSmallest && film.filter.radius <= kLargest))
-    throw Error(ExitCode::kUsage, fmt::format("--filter '{}': a radius is {:g} to {:g} pixels",
-                                              printable(text_), kSmallest, kLargest));
+    throw Error(ExitCode::kUsage, "--filter '{}': a radius is {:g} to {:g} pixels",
+                printable(text_), kSmallest, kLargest);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <optional>
 
@@ -37,14 +38,28 @@ void OutputFiles::writes(const fs::path& file) {
   const auto id = file_id(file);
   if ((id && read_.contains(*id)) ||
       !written_.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{}: is read or written by this command already", file.string()));
+    throw Error(ExitCode::kUsage, "{}: is read or written by this command already", file.string());
 }
 
 void OutputFiles::writes_report(const std::string& path) {
   if (path.empty() || path == kStdout) return;
   writes(path);
   require_writable(path);
+}
+
+std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+  constexpr std::size_t kGap = 2;
+  std::vector<std::size_t> widths(lines.front().size(), 0);
+  for (const auto& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
+  std::string text;
+  for (const auto& line : lines) {
+    std::string one;
+    for (std::size_t k = 0; k < line.size(); ++k)
+      one += fmt::format("{:<{}}", line[k], widths[k] + kGap);
+    text += one.substr(0, one.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
 }
 
 void write_reports(std::string table, Reports reports) {

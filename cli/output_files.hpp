@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/files.hpp"
 
@@ -30,6 +31,9 @@ class OutputFiles {
   std::set<std::pair<dev_t, ino_t>> read_;
   std::set<std::filesystem::path> written_;
 };
+
+/// Lines of columns, each as wide as its widest cell. The first line is the head.
+std::string aligned(const std::vector<std::vector<std::string>>& lines);
 
 /// Paths and texts.
 using Reports = std::initializer_list<std::pair<std::string, std::string>>;

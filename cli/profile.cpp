@@ -65,8 +65,7 @@ std::array<double, kCount> numbers_of(const std::string& option, const std::stri
     const bool is_last = k + 1 == kCount;
     if (!parse_number(rest.substr(0, comma), numbers[k]) ||
         is_last != (comma == std::string_view::npos))
-      throw Error(ExitCode::kUsage,
-                  fmt::format("{} '{}' has to be {}", option, printable(text), form));
+      throw Error(ExitCode::kUsage, "{} '{}' has to be {}", option, printable(text), form);
     if (!is_last) rest.remove_prefix(comma + 1);
   }
   return numbers;
@@ -83,8 +82,7 @@ BlobOptions blob_options(const std::string& at, const std::string& region, doubl
     const auto numbers = numbers_of<4>("--region", region, "X,Y,W,H");
     for (const double one : numbers)
       if (one != std::floor(one) || std::abs(one) > kMaxImageSide)
-        throw Error(ExitCode::kUsage,
-                    fmt::format("--region '{}' has to be whole pixels", printable(region)));
+        throw Error(ExitCode::kUsage, "--region '{}' has to be whole pixels", printable(region));
     options.region = {int(numbers[0]), int(numbers[1]), int(numbers[2]), int(numbers[3])};
   }
   return options;
@@ -165,9 +163,9 @@ Result measured(const ProfileArguments& options, const NamedImages& images,
   const std::vector<records::Profile> profiles = profiles_of(scene, options, images, noise, shown);
   if (profiles.size() > 1 && !options.svg.empty())
     throw Error(ExitCode::kUsage,
-                fmt::format("--svg draws one highlight, and there are {}: choose with --sphere and "
-                            "--light",
-                            profiles.size()));
+                "--svg draws one highlight, and there are {}: choose with --sphere and "
+                "--light",
+                profiles.size());
   const bool chosen = options.light || options.sphere;
   Result result{chosen ? record_text(profiles.front()) : record_text(records::Profiles{profiles}),
                 "", profile_csv(profiles), profile_svg(profiles.front())};

@@ -172,21 +172,6 @@ std::string with_error(double value, double error) {
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
-  constexpr std::size_t kGap = 2;
-  std::vector<std::size_t> widths(lines.front().size(), 0);
-  for (const auto& line : lines)
-    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
-  std::string text;
-  for (const auto& line : lines) {
-    std::string one;
-    for (std::size_t k = 0; k < line.size(); ++k)
-      one += fmt::format("{:<{}}", line[k], widths[k] + kGap);
-    text += one.substr(0, one.find_last_not_of(' ') + 1) + '\n';
-  }
-  return text;
-}
-
 std::string differences_table(const records::Named<records::ZoneErrors>& differences) {
   if (differences.empty()) return "";
   const Table table(differences);

@@ -35,8 +35,6 @@ std::string percent(double share);
 std::string peak_remark(const records::Peak& peak);
 /// A line for each.
 std::string specks_text(const std::string& name, std::span<const records::Speck> specks);
-/// Lines of columns, each as wide as its widest cell. The first line is the head.
-std::string aligned(const std::vector<std::vector<std::string>>& lines);
 std::string differences_table(const records::Named<records::ZoneErrors>& differences);
 std::string csv_head(const records::Named<std::vector<double>>& columns);
 std::string csv_values(const records::Named<std::vector<double>>& columns, std::size_t line);

@@ -20,9 +20,8 @@ const records::Kind& kind_of(const std::string& name) {
     if (kind.type().kind() == name) return kind;
     names.push_back(kind.type().kind());
   }
-  throw Error(ExitCode::kUsage,
-              fmt::format("no kind of record '{}'{}; 'lobelia records' lists them", printable(name),
-                          did_you_mean(name, names)));
+  throw Error(ExitCode::kUsage, "no kind of record '{}'{}; 'lobelia records' lists them",
+              printable(name), did_you_mean(name, names));
 }
 
 void write_reference(const std::filesystem::path& directory) {

@@ -46,8 +46,7 @@ void run_reference(const ReferenceArguments& options) {
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
   if (const std::string why = engine->why_not(scene, reference); !why.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: not comparable, because {}", options.scene, why));
+    throw Error(ExitCode::kInput, "{}: not comparable, because {}", options.scene, why);
   warn_of(scene);
   const auto record_path = checked_record_path(options.output);
   if (!options.standard_error.empty()) require_writable(options.standard_error);

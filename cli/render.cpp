@@ -36,16 +36,15 @@ void require_output(std::string_view option, const std::filesystem::path& path,
                     std::initializer_list<std::filesystem::path> others) {
   if (path.empty()) return;
   if (std::ranges::find(others, path) != others.end())
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: is written by this command already", option, path.string()));
+    throw Error(ExitCode::kUsage, "{} {}: is written by this command already", option,
+                path.string());
   require_writable(path);
 }
 
 /// Throws before long work if the option is given and the picture is too large for it.
 void require_whole_picture(const Film& film, std::string_view option, std::string_view value) {
   const std::string problem = whole_picture_problem(film);
-  if (!value.empty() && !problem.empty())
-    throw Error(ExitCode::kUsage, fmt::format("{}: {}", option, problem));
+  if (!value.empty() && !problem.empty()) throw Error(ExitCode::kUsage, "{}: {}", option, problem);
 }
 
 /// Seconds of the stages around rendering. Packing rows is part of rendering; in a large picture it runs while other

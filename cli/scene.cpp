@@ -45,9 +45,8 @@ void write_texts(const std::map<std::string, std::string>& texts, const SceneFor
                  const SceneArguments& options, const std::vector<std::string>& pictures) {
   if (options.output.empty()) {
     if (texts.size() > 1)
-      throw Error(ExitCode::kUsage,
-                  fmt::format("{} takes {} files; give a directory for them with -o DIR",
-                              format.title, texts.size()));
+      throw Error(ExitCode::kUsage, "{} takes {} files; give a directory for them with -o DIR",
+                  format.title, texts.size());
     fmt::print("{}", texts.begin()->second);
     return;
   }
@@ -56,9 +55,8 @@ void write_texts(const std::map<std::string, std::string>& texts, const SceneFor
   const bool is_directory =
       texts.size() > 1 || there == fs::file_type::directory || !output.has_filename();
   if (is_directory && there != fs::file_type::not_found && there != fs::file_type::directory)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{}: {} takes {} files, and this is no directory",
-                            printable_path(options.output), format.title, texts.size()));
+    throw Error(ExitCode::kUsage, "{}: {} takes {} files, and this is no directory",
+                printable_path(options.output), format.title, texts.size());
   OutputFiles outputs;
   outputs.reads(options.scene);
   for (const std::string& picture : pictures) outputs.reads(from / picture);
@@ -90,14 +88,13 @@ Scene scene_of(const SceneArguments& options) {
 
 void run_scene(const SceneArguments& options) {
   if (options.to.empty() && options.from.empty())
-    throw Error(ExitCode::kUsage,
-                fmt::format("give a format with --to FORMAT: {}", format_names()));
+    throw Error(ExitCode::kUsage, "give a format with --to FORMAT: {}", format_names());
   const SceneFormat& format = scene_format(options.to.empty() ? "lobelia" : options.to);
   Scene scene = scene_of(options);
   options.overrides.apply(scene);
   if (const std::string why = format.why_not(scene); !why.empty())
-    throw Error(ExitCode::kInput, fmt::format("{}: cannot be written for {}, because {}",
-                                              options.scene, format.title, why));
+    throw Error(ExitCode::kInput, "{}: cannot be written for {}, because {}", options.scene,
+                format.title, why);
   write_texts(format.write(scene), format, options, pictures_of(scene));
 }
 

@@ -40,8 +40,7 @@ std::int64_t count_nonfinite_pixels(const Image& image) {
 
 void require_range(std::string_view what, double value, double min, double max) {
   if (!(value >= min && value <= max))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} is {}; it must lie in [{}, {}]", what, value, min, max));
+    throw Error(ExitCode::kUsage, "{} is {}; it must lie in [{}, {}]", what, value, min, max);
 }
 
 /// The input of the metric that the options lack; empty if they lack none.
@@ -269,7 +268,7 @@ void check_options(const ComparisonOptions& options) {
                       did_you_mean(limit.metric, names), join(limit_names(false))));
     if (const std::string_view missing = missing_input(*find_metric(limit.metric), options);
         !missing.empty())
-      throw Error(ExitCode::kUsage, fmt::format("a limit on '{}' needs {}", limit.metric, missing));
+      throw Error(ExitCode::kUsage, "a limit on '{}' needs {}", limit.metric, missing);
     if (limit.metric == "outliers.off_edge" &&
         (!options.tolerance || options.tolerance->edges.empty()))
       throw Error(ExitCode::kUsage,
@@ -310,8 +309,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   require_same_size(a, b);
   const auto require_pixels = [&](std::string_view what, std::size_t count) {
     if (count != 0 && count != a.pixel_count())
-      throw Error(ExitCode::kInput, fmt::format("the pictures have {} pixels, the {} {}",
-                                                a.pixel_count(), what, count));
+      throw Error(ExitCode::kInput, "the pictures have {} pixels, the {} {}", a.pixel_count(), what,
+                  count);
   };
   if (options.tolerance) require_pixels("scene", options.tolerance->edges.size());
   require_pixels("mask", options.mask.size());

@@ -12,6 +12,7 @@
 #include "core/constants.hpp"
 #include "core/contained_reader.hpp"
 #include "core/error.hpp"
+#include "core/half.hpp"
 #include "core/image_values.hpp"
 
 namespace lobelia {
@@ -36,15 +37,14 @@ class ChangedCopies {
     });
   }
   void add_half_floats() {
-    constexpr double kLeastHalf = 0x1p-14, kLargestHalf = 65504;
     const std::span<const float> values = layer_.image.values();
     // A layer that the format cannot hold is not rounded by it but spoilt.
     if (std::ranges::all_of(values, [](float v) {
           return v == 0 || !std::isfinite(v) ||
-                 (std::abs(v) >= kLeastHalf && std::abs(v) <= kLargestHalf);
+                 (std::abs(v) >= kLeastNormalHalf && std::abs(v) <= kGreatestHalf);
         }))
       add_each("rounded to half floats", Expected::kNotFound,
-               [](float v) { return std::isfinite(v) ? float(as_half(double(v))) : v; });
+               [](float v) { return std::isfinite(v) ? float(rounded_to_half(double(v))) : v; });
   }
   const Image& image() const { return layer_.image; }
 
@@ -201,7 +201,7 @@ std::vector<Change> change_cryptomatte(const CoveredPixels& objects,
   };
   add("coverage 10 % lower", Expected::kEither, each_share([](float v) { return v * 0.9f; }));
   add("coverage rounded to half floats", Expected::kNotFound,
-      each_share([](float v) { return float(as_half(double(v))); }));
+      each_share([](float v) { return float(rounded_to_half(double(v))); }));
   add("objects of a pixel in another order", Expected::kNotFound,
       [](CoveredPixels& copy) { std::ranges::reverse(copy.pairs); });
   return changes;

@@ -118,9 +118,8 @@ LayerTypeChoice parse_layer_type(const std::string& text) {
   const auto type =
       equals == text.npos ? std::nullopt : find_id<LayerType>(kLayerTypes, text.substr(equals + 1));
   if (!type)
-    throw Error(ExitCode::kUsage,
-                fmt::format("--layer-type {}: expected NAME=TYPE, where TYPE is one of {}",
-                            printable(text), join(kLayerTypes)));
+    throw Error(ExitCode::kUsage, "--layer-type {}: expected NAME=TYPE, where TYPE is one of {}",
+                printable(text), join(kLayerTypes));
   return {text.substr(0, equals), *type};
 }
 

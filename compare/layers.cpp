@@ -136,9 +136,8 @@ void require_layers_of_types(const PictureSource& a, const PictureSource& b,
     if (is_it(a) || is_it(b)) continue;
     std::vector<std::string_view> names(b.layers.begin(), b.layers.end());
     std::erase(names, "");
-    throw Error(ExitCode::kInput,
-                fmt::format("--layer-type: no layer '{}'{}", printable(choice.layer),
-                            printable(did_you_mean(choice.layer, names))));
+    throw Error(ExitCode::kInput, "--layer-type: no layer '{}'{}", printable(choice.layer),
+                printable(did_you_mean(choice.layer, names)));
   }
 }
 
@@ -175,9 +174,9 @@ LayerNames parse_layer_names(const std::string& text) {
   LayerNames names{text.substr(0, equals), text.substr(equals + 1)};
   if (names.a.empty() || names.b.empty())
     throw Error(ExitCode::kUsage,
-                fmt::format("--layer {}: expected NAME, or NAME=NAME where the files call it "
-                            "differently",
-                            printable(text)));
+                "--layer {}: expected NAME, or NAME=NAME where the files call it "
+                "differently",
+                printable(text));
   return names;
 }
 
@@ -198,9 +197,8 @@ void take_part(Image& a, Image& b, const ComparisonOptions& options) {
   if (options.crop) a = cut(std::move(a), *options.crop);
   if (options.ignored.empty()) return;
   if (options.ignored.size() != b.pixel_count())
-    throw Error(ExitCode::kInput,
-                fmt::format("a layer has {} x {} pixels, the ignored part belongs to {}", b.width(),
-                            b.height(), options.ignored.size()));
+    throw Error(ExitCode::kInput, "a layer has {} x {} pixels, the ignored part belongs to {}",
+                b.width(), b.height(), options.ignored.size());
   for (std::size_t i = 0; i < b.values().size(); ++i) {
     if (options.ignored[i / 3] == 0) continue;
     float& value = b.values()[i];
@@ -285,8 +283,7 @@ CommonLayers common_layers(const fs::path& a, const fs::path& b) {
   result.only_b = without(in_b, in_a);
   result.both = without(in_a, result.only_a);
   if (result.both.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("{} and {} have no layer of one name", a.string(), b.string()));
+    throw Error(ExitCode::kInput, "{} and {} have no layer of one name", a.string(), b.string());
   return result;
 }
 

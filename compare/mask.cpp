@@ -32,9 +32,8 @@ MaskShape::Rectangle parse_rectangle(std::string_view option, std::string_view t
   const auto is_whole = [](double number) { return number == std::floor(number); };
   if (numbers.empty() || !std::ranges::all_of(numbers, is_whole) || numbers[2] < 1 ||
       numbers[3] < 1)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: X,Y,W,H must be whole pixels, W and H at least 1", option,
-                            printable(text)));
+    throw Error(ExitCode::kUsage, "{} {}: X,Y,W,H must be whole pixels, W and H at least 1", option,
+                printable(text));
   return {int(numbers[0]), int(numbers[1]), int(numbers[2]), int(numbers[3])};
 }
 
@@ -48,8 +47,8 @@ MaskShape::Polygon parse_polygon(std::string_view option, std::string_view text)
   }
   if (!good || corners.size() < 3 || corners.size() > kMaxPolygonCorners)
     throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: expected \"polygon:X,Y X,Y X,Y ...\" with 3 to {} corners",
-                            option, printable(text), kMaxPolygonCorners));
+                "{} {}: expected \"polygon:X,Y X,Y X,Y ...\" with 3 to {} corners", option,
+                printable(text), kMaxPolygonCorners);
   return corners;
 }
 
@@ -91,9 +90,8 @@ void add(const Image& picture, PixelFlags& pixels, int, int) {
 
 void require_inside(const PixelWindow& window, int width, int height) {
   if (!is_inside(window, {0, 0, width, height}))
-    throw Error(ExitCode::kInput,
-                fmt::format("--crop {},{},{},{}: does not lie within the {} x {} pixels", window.x,
-                            window.y, window.width, window.height, width, height));
+    throw Error(ExitCode::kInput, "--crop {},{},{},{}: does not lie within the {} x {} pixels",
+                window.x, window.y, window.width, window.height, width, height);
 }
 
 }  // namespace
@@ -114,9 +112,8 @@ MaskShape parse_mask_shape(std::string_view option, const std::string& text) {
   if (text.starts_with(kPolygon)) return {text, parse_polygon(option, text)};
   Image picture = read_image(text);
   if (std::ranges::any_of(picture.values(), [](float value) { return std::isnan(value); }))
-    throw Error(ExitCode::kInput,
-                fmt::format("{} {}: has a NaN, which is neither inside nor outside", option,
-                            printable_path(text)));
+    throw Error(ExitCode::kInput, "{} {}: has a NaN, which is neither inside nor outside", option,
+                printable_path(text));
   return {text, std::move(picture)};
 }
 
@@ -125,10 +122,8 @@ PixelFlags pixels_inside(std::span<const MaskShape> shapes, int width, int heigh
   for (const MaskShape& shape : shapes) {
     if (const auto* picture = std::get_if<Image>(&shape.form);
         picture && (picture->width() != width || picture->height() != height))
-      throw Error(ExitCode::kInput,
-                  fmt::format("the mask {} has {} x {} pixels, the pictures have {} x {}",
-                              printable_path(shape.text), picture->width(), picture->height(),
-                              width, height));
+      throw Error(ExitCode::kInput, "the mask {} has {} x {} pixels, the pictures have {} x {}",
+                  printable_path(shape.text), picture->width(), picture->height(), width, height);
     std::visit([&](const auto& form) { add(form, pixels, width, height); }, shape.form);
   }
   return pixels;

@@ -14,10 +14,9 @@ namespace lobelia {
 inline void require_same_size(const Image& a, const Image& b, std::string_view file_a = {},
                               std::string_view file_b = {}) {
   if (a.width() != b.width() || a.height() != b.height())
-    throw Error(ExitCode::kInput,
-                fmt::format("the sizes differ: {} x {} against {} x {}{}", a.width(), a.height(),
-                            b.width(), b.height(),
-                            file_a.empty() ? "" : fmt::format(" ({} against {})", file_a, file_b)));
+    throw Error(ExitCode::kInput, "the sizes differ: {} x {} against {} x {}{}", a.width(),
+                a.height(), b.width(), b.height(),
+                file_a.empty() ? "" : fmt::format(" ({} against {})", file_a, file_b));
   if (a.pixel_count() == 0) throw Error(ExitCode::kInput, "the pictures have no pixels");
 }
 

@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "compare/highlight_region.hpp"
-#include "compare/highlights/slack.hpp"
+#include "compare/highlights/judge.hpp"
 #include "compare/highlights/words.hpp"
 #include "compare/layers.hpp"
 #include "compare/profile/peak.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
+#include "core/half.hpp"
 #include "core/image_values.hpp"
 #include "core/text.hpp"
 
@@ -150,14 +151,6 @@ Image with_noise(const Image& image, std::uint64_t stream) {
 
 }  // namespace
 
-double as_half(double value) {
-  constexpr double kSteps = 2048, kLeastNormal = 0x1p-14;
-  if (std::abs(value) < kLeastNormal) return std::nearbyint(value * 0x1p24) * 0x1p-24;
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  return std::ldexp(std::nearbyint(fraction * kSteps) / kSteps, exponent);
-}
-
 Change change_of(std::string name, Expected expected, const Comparison& comparison) {
   Change change{std::move(name), expected, comparison.verdict, {}};
   for (const LimitResult& limit : comparison.limits)
@@ -217,9 +210,9 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
   add("rounded in the seventh digit", Expected::kNotFound,
       each_value(reference, [](double v) { return v * (1 + 1e-7); }));
   // A picture that a format cannot hold is not rounded by it but spoilt.
-  constexpr double kLeastHalf = 0x1p-14, kLargestHalf = 65504, kMostRounding = 0.02;
-  if (peak >= kLeastHalf && peak <= kLargestHalf)
-    add("rounded to half floats", Expected::kNotFound, each_value(reference, as_half));
+  constexpr double kMostRounding = 0.02;
+  if (peak >= kLeastNormalHalf && peak <= kGreatestHalf)
+    add("rounded to half floats", Expected::kNotFound, each_value(reference, rounded_to_half));
   PictureSource eight_bits;
   eight_bits.value_type = "uint8";
   eight_bits.transfer = "sRGB";

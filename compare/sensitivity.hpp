@@ -28,9 +28,6 @@ struct Change {
 /// The result of comparing a changed copy with the original.
 Change change_of(std::string name, Expected expected, const Comparison& comparison);
 
-/// The value that a half float would hold, of those that it can.
-double as_half(double value);
-
 /// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without its
 /// brightest highlight, with each of the eight largest highlights gone, dimmer and moved in turn, and copies that only round or
 /// have known noise. Each highlight is also alone in `a`: then the reference is compared with the copy that lacks it.

@@ -24,6 +24,13 @@ auto chosen(const std::string& value, std::string_view option,
   return *found;
 }
 
+/// The same where all names are allowed.
+template <class Find>
+auto chosen(const std::string& value, std::string_view option,
+            std::span<const std::string_view> names, Find find) {
+  return chosen(value, option, names, join(names), find);
+}
+
 /// "'x' is not a number; allowed: 2 to 5"; empty for a number in this range, which a NaN is not.
 inline std::string number_problem(const std::string& text, double least, double most) {
   double value = 0;

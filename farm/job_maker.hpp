@@ -281,18 +281,16 @@ class JobMaker {
         std::erase_if(pictures, [](const MadePicture& one) { return one.engine == kOurs; });
       return make_profile(scene, pictures, draft);
     }
-    const std::string shown = graph_.whose(job);
+    const MadePicture &a = pictures.at(0), &b = pictures.at(1);
     std::vector<EngineFloor> floors;
-    for (const MadePicture* one : {&pictures.at(0), &pictures.at(1)}) {
+    for (const MadePicture* one : {&a, &b}) {
       if (one->engine == kOurs) floors.push_back(kOursFloor);
       for (const FarmEngine& engine : graph_.engines())
         if (engine.name == one->engine) floors.push_back(engine.engine->info().floor);
     }
-    make_comparison(
-        scene,
-        {pictures[0], pictures[1], pictures[0].engine == shown ? pictures[0] : pictures[1],
-         pictures.size() > 2 ? pictures[2] : pictures[0], std::move(floors)},
-        draft, record);
+    make_comparison(scene, {a.engine, b.engine, a.engine == graph_.whose(job)},
+                    read_pictures(scene, a, b, pictures.size() > 2 ? pictures[2] : a), floors, draft,
+                    record);
   }
   struct Made {
     std::unique_ptr<Claim> claim;

@@ -164,56 +164,56 @@ Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floor
 
 Comparison judge_cell(const Image& a, const Image& b, double exposure_stops, Tolerance tolerance,
                       std::optional<NoiseOptions> noise) {
-  CompareChoice choice = plain_choice(exposure_stops);
-  choice.no_default_limits = true;
-  if (noise)
-    for (const MetricLimit& limit : default_limits())
-      choice.fail.push_back(fmt::format("{}={}", limit.metric, limit.limit));
-  choice.tolerance =
-      fmt::format("{},{},{}", tolerance.relative, tolerance.of_peak, tolerance.allowed_outliers);
-  ComparisonOptions options = judging_options(choice);
+  ComparisonOptions options = judging_options(plain_choice(exposure_stops));
+  options.default_limits = false;
+  if (noise) options.limits.assign(default_limits().begin(), default_limits().end());
   // Profiles measure the highlight of every cell. Nor is each highlight judged by itself: a cell is held pixel by pixel to
   // what the arithmetic of engines and the known noise allow, which is far below the 3 % of those limits.
   options.highlight = false;
-  options.tolerance->edges = std::move(tolerance.edges);
+  options.tolerance = std::move(tolerance);
   options.noise = std::move(noise);
   return compare(a, b, options);
 }
 
-void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
+PicturesOfCell read_pictures(const Scene& scene, const MadePicture& a, const MadePicture& b,
+                             const MadePicture& ours) {
+  const auto read = [&](const MadePicture& one) {
+    return read_whole_picture(one.directory / picture_file(one.engine), scene);
+  };
+  PicturesOfCell pictures{read(a), read(b)};
+  pictures.exposure_stops = cell_exposure(ours.engine == a.engine ? pictures.a : read(ours));
+  if (!truth::why_not_evaluated(scene).empty() && has_error(a) && has_error(b))
+    pictures.noise = noise_of(a, b);
+  return pictures;
+}
+
+void make_comparison(const Scene& scene, const ComparisonTask& task, PicturesOfCell pictures,
+                     const std::vector<EngineFloor>& floors, ResultDraft& draft,
                      records::Result& record) {
-  const auto file = [](const MadePicture& picture) { return picture_file(picture.engine); };
-  const Image a = read_whole_picture(task.a.directory / file(task.a), scene);
-  const Image b = read_whole_picture(task.b.directory / file(task.b), scene);
-  const double exposure =
-      cell_exposure(task.ours.engine == task.a.engine
-                        ? a
-                        : read_whole_picture(task.ours.directory / file(task.ours), scene));
-  write_png(draft.file(task.shown.engine + ".png"),
-            to_display(task.shown.engine == task.a.engine ? a : b, exposure));
+  const auto& [a, b, exposure, noise] = pictures;
+  write_png(draft.file((task.shows_a ? task.a : task.b) + ".png"),
+            to_display(task.shows_a ? a : b, exposure));
 
   // Without noise, each pixel has a tolerance. With noise it covers rounding alone, and the default limits decide.
   const bool exact = truth::why_not_evaluated(scene).empty();
-  if (!exact && !(has_error(task.a) && has_error(task.b))) {
+  if (!exact && !noise) {
     record.not_comparable =
         "its picture may have noise that is not known, and no tolerance of single pixels judges that";
     return;
   }
-  const Tolerance tolerance = tolerance_of(scene, task.floors);
-  std::optional<NoiseOptions> noise;
-  if (!exact) noise = noise_of(task.a, task.b);
-  const Comparison comparison = judge_cell(a, b, exposure, tolerance, std::move(noise));
+  const Tolerance tolerance = tolerance_of(scene, floors);
+  const Comparison comparison = judge_cell(a, b, exposure, tolerance, std::move(pictures.noise));
 
-  const std::string name = comparison_name(task.a.engine, task.b.engine);
+  const std::string name = comparison_name(task.a, task.b);
   // White in the difference picture: the tolerance at the peak, or with noise a tenth of the peak.
   const double relative = exact ? tolerance.relative + tolerance.of_peak : 0.1;
   const double white_at = relative * peak_value(b);
   write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
   records::write_record(draft.file(name + ".json"),
-                        comparison_record(comparison, file(task.a), file(task.b)));
+                        comparison_record(comparison, picture_file(task.a), picture_file(task.b)));
   record.verdict = verdict_name(comparison.verdict);
-  record.entry = records::CellComparison{
-      task.a.engine, task.b.engine, name + ".json", name + ".png", {white_at, relative}};
+  record.entry =
+      records::CellComparison{task.a, task.b, name + ".json", name + ".png", {white_at, relative}};
 }
 
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,

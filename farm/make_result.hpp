@@ -43,18 +43,26 @@ void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<d
 void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
                     ReferenceResult result, ResultDraft& draft, records::Result& record);
 
-/// A comparison of two pictures.
+/// Two pictures of a cell, read again.
+struct PicturesOfCell {
+  Image a, b;
+  double exposure_stops = 0;               ///< at which our picture's brightest value is white
+  std::optional<NoiseOptions> noise = {};  ///< of averages, if both have their errors
+};
+PicturesOfCell read_pictures(const Scene& scene, const MadePicture& a, const MadePicture& b,
+                             const MadePicture& ours);
+
+/// A comparison of two engines' pictures.
 struct ComparisonTask {
-  MadePicture a, b;
-  MadePicture shown;                ///< the one of them that gets a PNG
-  MadePicture ours;                 ///< it sets the exposure
-  std::vector<EngineFloor> floors;  ///< of both engines; they add up
+  std::string a, b;
+  bool shows_a = false;  ///< which of them gets a PNG
 };
 
-/// Writes SHOWN.png at our picture's exposure and, unless the noise is unknown, A-B.json and .png. Up to three pixels on
-/// silhouettes, terminators and shadow edges may exceed the tolerance, because an edge may fall on the other side of a
-/// pixel's centre.
-void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
+/// Writes the shown engine's .png and, unless the noise is unknown, A-B.json and .png. The floors of both engines add up.
+/// Up to three pixels on silhouettes, terminators and shadow edges may exceed the tolerance, because an edge may fall on
+/// the other side of a pixel's centre.
+void make_comparison(const Scene& scene, const ComparisonTask& task, PicturesOfCell pictures,
+                     const std::vector<EngineFloor>& floors, ResultDraft& draft,
                      records::Result& record);
 
 /// `scene` is one that truth::evaluate() takes; edges are only of such scenes.

@@ -76,14 +76,13 @@ void require(std::string_view what, Number value, double min, double max) {
 }
 
 ModelId model_of(const std::string& name) {
-  return chosen(name, "model", model_names(), join(model_names()), find_model);
+  return chosen(name, "model", model_names(), find_model);
 }
 LobeId lobe_of(const std::string& name) {
   return chosen(name, "lobe", lobe_names(), allowed_lobes(), find_lobe);
 }
 Normalisation normalisation_of(const std::string& name) {
-  return chosen(name, "normalisation", normalisation_names(), join(normalisation_names()),
-                find_normalisation);
+  return chosen(name, "normalisation", normalisation_names(), find_normalisation);
 }
 
 Image image_of(const Picture& picture) {

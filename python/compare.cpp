@@ -160,7 +160,7 @@ py::object compare(const py::object& a, const py::object& b, const py::dict& giv
 
 const DifferenceMap& map_of(const std::string& id) {
   const std::vector<std::string_view> names = difference_map_names();
-  return *chosen(id, "map", names, join(names), [](const std::string& name) {
+  return *chosen(id, "map", names, [](const std::string& name) {
     const DifferenceMap* const found = find_difference_map(name);
     return found ? std::optional(found) : std::nullopt;
   });

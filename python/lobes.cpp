@@ -35,7 +35,7 @@ T checked_s(T s) {
 }
 
 ModelId model_of(const std::string& name) {
-  return chosen(name, "model", model_names(), join(model_names()), find_model);
+  return chosen(name, "model", model_names(), find_model);
 }
 
 LobeId lobe_of(const std::string& name, const std::string& formula) {
@@ -51,8 +51,7 @@ LobeId lobe_of(const std::string& name, const std::string& formula) {
 }
 
 Normalisation normalisation_of(const std::string& name) {
-  return chosen(name, "normalisation", normalisation_names(), join(normalisation_names()),
-                find_normalisation);
+  return chosen(name, "normalisation", normalisation_names(), find_normalisation);
 }
 
 /// Flat arrays of one length. The exponents are sorted, or a single one is that of all (_lobes.py).

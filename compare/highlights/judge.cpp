@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "compare/highlights/slack.hpp"
 #include "compare/profile/peak.hpp"
 
 namespace lobelia {

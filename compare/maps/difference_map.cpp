@@ -71,7 +71,7 @@ PixelValues measure_difference_map(const DifferenceMap& map, const Image& a, con
                                    const Viewing& viewing) {
   require_same_size(a, b);
   if (map.needs_exposures && !viewing.hdr_exposures)
-    throw Error(ExitCode::kUsage, fmt::format("the map {} needs a range of exposures", map.id));
+    throw Error(ExitCode::kUsage, "the map {} needs a range of exposures", map.id);
   if (is_finite(a) && is_finite(b)) return measure_finite(map, a, b, viewing);
   PixelFlags broken(a.pixel_count());
   const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
@@ -88,9 +88,8 @@ std::span<const std::string_view> colour_map_names() { return kColourMaps; }
 DisplayImage colour_picture(std::span<const float> values, int width, int height, ColourScale scale,
                             std::string_view colour_map) {
   if (std::ranges::count(kColourMaps, colour_map) == 0)
-    throw Error(ExitCode::kUsage,
-                fmt::format("no colour map '{}'{}; there are {}", printable(colour_map),
-                            did_you_mean(colour_map, kColourMaps), join(kColourMaps)));
+    throw Error(ExitCode::kUsage, "no colour map '{}'{}; there are {}", printable(colour_map),
+                did_you_mean(colour_map, kColourMaps), join(kColourMaps));
   const bool diverges = colour_map == kSignedColourMap;
   const ColourTable table = diverges ? blue_white_red() : colour_table(colour_map);
   DisplayImage picture{width, height, std::vector<std::uint8_t>(3 * values.size())};

@@ -15,29 +15,17 @@
 namespace lobelia {
 namespace {
 
+constexpr ValueRange kCodeRange{0, 255};
+
 constexpr MetricOutput kCodeOutputs[] = {
-    {"code.max",
-     "Largest difference in code values",
-     Unit::kPlain,
-     Better::kLower,
-     true,
-     "largest difference of 8-bit sRGB code values",
-     "In steps of an 8-bit picture.",
-     0,
-     false,
-     {0, 255}},
+    {"code.max", "Largest difference in code values", Unit::kPlain, Better::kLower, true,
+     "largest difference of 8-bit sRGB code values", "In steps of an 8-bit picture.", 0, false,
+     kCodeRange},
     {"code.max.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
     {"code.max.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"},
-    {"code.mean",
-     "Mean difference in code values",
-     Unit::kPlain,
-     Better::kLower,
-     true,
-     "mean difference of 8-bit sRGB code values",
-     "In steps of an 8-bit picture.",
-     0,
-     false,
-     {0, 255}}};
+    {"code.mean", "Mean difference in code values", Unit::kPlain, Better::kLower, true,
+     "mean difference of 8-bit sRGB code values", "In steps of an 8-bit picture.", 0, false,
+     kCodeRange}};
 
 void measure_code(const MetricInput& input, std::span<double> values) {
   struct Row {

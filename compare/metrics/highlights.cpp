@@ -50,7 +50,7 @@ extern constinit const Metric highlights_metric{kHighlightsOutputs,
                                                 Needs::kHighlights,
                                                 "ours",
                                                 measure_highlights,
-                                                {},
+                                                "",
                                                 false};
 
 }  // namespace lobelia

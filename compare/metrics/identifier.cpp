@@ -13,16 +13,8 @@ namespace {
 constexpr MetricOutput kIdentifierOutputs[] = {
     {"identifier.pixels", "Pixels with another identifier", Unit::kCount, Better::kLower, true,
      "pixels with another identifier"},
-    {"identifier.share",
-     "Share of pixels with another identifier",
-     Unit::kShare,
-     Better::kLower,
-     true,
-     "the same as a share of the pixels",
-     {},
-     0,
-     false,
-     kUnitRange}};
+    {"identifier.share", "Share of pixels with another identifier", Unit::kShare, Better::kLower,
+     true, "the same as a share of the pixels", "", 0, false, kUnitRange}};
 
 void measure_identifier(const MetricInput& input, std::span<double> values) {
   std::int64_t differ = 0, count = 0;

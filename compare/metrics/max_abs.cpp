@@ -11,17 +11,9 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kMaxAbsOutputs[] = {
-    {"max_abs",
-     "Largest difference",
-     Unit::kRadiance,
-     Better::kLower,
-     true,
+    {"max_abs", "Largest difference", Unit::kRadiance, Better::kLower, true,
      "largest error of an RGB value",
-     "Of any channel of any pixel, in radiance; and at which pixel.",
-     0,
-     false,
-     {},
-     true},
+     "Of any channel of any pixel, in radiance; and at which pixel.", 0, false, ValueRange(), true},
     {"max_abs.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
     {"max_abs.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
 

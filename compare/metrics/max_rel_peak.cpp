@@ -14,17 +14,9 @@ namespace {
 constexpr MetricOutput kMaxRelPeakOutputs[] = {
     {"peak", "Peak", Unit::kRadiance, Better::kNeither, false,
      "brightest RGB value of the reference", "The brightest value of the reference picture."},
-    {"max_rel_peak",
-     "Largest difference, of the peak",
-     Unit::kShare,
-     Better::kLower,
-     false,
-     "largest error as a share of that",
-     "The largest difference divided by the peak.",
-     0,
-     false,
-     {},
-     true}};
+    {"max_rel_peak", "Largest difference, of the peak", Unit::kShare, Better::kLower, false,
+     "largest error as a share of that", "The largest difference divided by the peak.", 0, false,
+     ValueRange(), true}};
 
 void measure_max_rel_peak(const MetricInput& input, std::span<double> values) {
   const double largest = value_errors(input)->largest, peak = reference_peak(input);

@@ -20,17 +20,12 @@
 namespace lobelia {
 namespace {
 
+constexpr ValueRange kCorrelationRange{-1, 1};
+
 constexpr MetricOutput kSsimOutputs[] = {
-    {"ssim",
-     "SSIM",
-     Unit::kPlain,
-     Better::kHigher,
-     true,
-     "structural similarity of the luma, mean",
-     "How alike the structure is, 1 for equal pictures; more is better.",
-     1,
-     true,
-     {-1, 1}}};
+    {"ssim", "SSIM", Unit::kPlain, Better::kHigher, true, "structural similarity of the luma, mean",
+     "How alike the structure is, 1 for equal pictures; more is better.", 1, true,
+     kCorrelationRange}};
 
 void measure_ssim(const MetricInput& input, std::span<double> values) {
   values[0] = means_of(*shown_ssim(input), input).similarity;

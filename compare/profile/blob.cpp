@@ -109,22 +109,23 @@ std::vector<std::optional<std::size_t>> matches(const std::vector<BlobFigures>& 
 /// The reach of the zones from the peak, pixels.
 double reach_of(const BlobFigures& blob) { return kZoneReach * size_of(blob); }
 
-std::vector<BlobCurve> curves_along(const BlobFigures& blob,
-                                    const std::vector<const Field*>& fields) {
+records::Named<records::BlobCurve> curves_along(const BlobFigures& blob, const NamedImages& images,
+                                                const std::vector<const Field*>& fields) {
   const double reach = reach_of(blob), step = std::max(kCurveStep, reach / kMostOffsets);
   const FilmPoint major = blob.axes.major, minor{-major.y, major.x};
-  std::vector<BlobCurve> curves;
+  records::Named<records::BlobCurve> curves;
   for (const auto& [axis, direction] : {std::pair{"major", major}, std::pair{"minor", minor}}) {
-    BlobCurve curve{axis, {}, std::vector<std::vector<double>>(fields.size())};
+    records::BlobCurve& curve = curves.emplace_back(axis, records::BlobCurve{}).second;
+    for (const auto& [name, image] : images)
+      curve.radiance.emplace_back(name, std::vector<double>());
     const int steps = int(std::ceil(reach / step));
     for (int k = -steps; k <= steps; ++k) {
-      curve.offset.push_back(k * step);
+      curve.offset_pixels.push_back(k * step);
       for (std::size_t image = 0; image < fields.size(); ++image)
-        curve.radiance[image].push_back(
+        curve.radiance[image].second.push_back(
             sample(*fields[image], {blob.peak.place.x + k * step * direction.x,
                                     blob.peak.place.y + k * step * direction.y}));
     }
-    curves.push_back(std::move(curve));
   }
   return curves;
 }
@@ -148,16 +149,17 @@ void require_in_picture(const BlobOptions& options, const Image& image) {
   const auto size = [&] { return fmt::format("{} x {}", image.width(), image.height()); };
   if (const auto& at = options.search.at;
       at && !(at->x >= 0 && at->y >= 0 && at->x <= image.width() && at->y <= image.height()))
-    throw Error(ExitCode::kInput, fmt::format("the place ({:g}, {:g}) is outside of the picture, "
-                                              "which has {} pixels",
-                                              at->x, at->y, size()));
+    throw Error(ExitCode::kInput,
+                "the place ({:g}, {:g}) is outside of the picture, "
+                "which has {} pixels",
+                at->x, at->y, size());
   if (const auto& r = options.region;
       r && !(r->x >= 0 && r->y >= 0 && r->width >= 1 && r->height >= 1 && r->x < image.width() &&
              r->y < image.height() && r->width <= image.width() - r->x &&
              r->height <= image.height() - r->y))
     throw Error(ExitCode::kInput,
-                fmt::format("the region {},{},{},{} is not inside the picture, which has {} pixels",
-                            r->x, r->y, r->width, r->height, size()));
+                "the region {},{},{},{} is not inside the picture, which has {} pixels", r->x, r->y,
+                r->width, r->height, size());
 }
 
 }  // namespace
@@ -171,9 +173,8 @@ BlobProfiles measure_blobs(const NamedImages& images, const BlobOptions& options
   pictures.reserve(images.size());
   for (const auto& [name, image] : images) {
     if (image->width() != first.width() || image->height() != first.height())
-      throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, {} has {} x {}",
-                                                images.front().first, first.width(), first.height(),
-                                                name, image->width(), image->height()));
+      throw Error(ExitCode::kInput, "{} has {} x {} pixels, {} has {} x {}", images.front().first,
+                  first.width(), first.height(), name, image->width(), image->height());
     const std::size_t k = pictures.size();
     const PictureNoise* noise = k < options.noise.size() ? options.noise[k] : nullptr;
     pictures.push_back(measure_picture(*image, options, noise));
@@ -213,7 +214,7 @@ BlobProfiles measure_blobs(const NamedImages& images, const BlobOptions& options
       profile.blobs.push_back(picture.blobs[*place[k]]);
       reference = &picture.blobs[*place[k]];
     }
-    if (reference) profile.curves = curves_along(*reference, fields);
+    if (reference) profile.curves = curves_along(*reference, images, fields);
     if (everywhere) profile.difference = difference_of(*fields[0], *fields[1], *reference);
     all.highlights.push_back(std::move(profile));
   }

@@ -11,12 +11,7 @@
 
 namespace lobelia {
 
-/// Standard errors; NaN if unknown.
-struct BlobErrors {
-  double background = kNaN, peak = kNaN, energy = kNaN;
-  FilmPoint place{kNaN, kNaN}, centroid{kNaN, kNaN};  ///< of the peak
-  double major_half_width = kNaN, minor_half_width = kNaN;
-};
+using records::BlobErrors;
 
 struct Clipping {
   std::size_t pixels = 0;  ///< with a value at the file's maximum
@@ -32,8 +27,8 @@ struct BlobFigures {
   Axes axes;  ///< of these, weighted by radiance over the background; their centre is the centroid
   double major_half_width = 0;  ///< pixels; NaN if the blob does not fall to half
   double minor_half_width = 0;  ///< likewise
-  double energy = 0;  ///< radiance over the background times pixels, in a disc of 3 half-widths
-  BlobErrors errors;
+  double energy = 0;    ///< radiance over the background times pixels, in a disc of 3 half-widths
+  BlobErrors errors;    ///< NaN where unknown
   double noise = kNaN;  ///< of a pixel near the peak, of the peak
   std::array<double, 3> colour{kNaN, kNaN,
                                kNaN};  ///< R, G and B over their backgrounds; the largest is 1
@@ -44,19 +39,13 @@ struct BlobFigures {
   std::string remark;   ///< a sentence if the blob is doubtful
 };
 
-/// Along one axis of the reference's blob, through its peak.
-struct BlobCurve {
-  std::string axis;                           ///< "major", "minor"
-  std::vector<double> offset;                 ///< pixels
-  std::vector<std::vector<double>> radiance;  ///< [picture][offset]
-};
-
 /// One highlight in one or two pictures.
 struct BlobProfile {
   std::size_t id = 0;  ///< 1 for the brightest
   std::vector<std::string> names;
-  std::vector<BlobFigures> blobs;        ///< [picture]
-  std::vector<BlobCurve> curves;         ///< none if no picture has the blob
+  std::vector<BlobFigures> blobs;  ///< [picture]
+  /// Through the peak of the reference's blob, along its axes: "major", "minor". None if no picture has the blob.
+  records::Named<records::BlobCurve> curves;
   std::optional<ZoneErrors> difference;  ///< of the first from the second, if both have the blob
 };
 

@@ -19,10 +19,7 @@ namespace lobelia {
 /// Named by records::kFalloffs.
 enum class Falloff { kGaussian, kGgx };
 
-/// A number and its standard error.
-struct Estimate {
-  double value, error;
-};
+using records::Estimate;
 
 struct FalloffFit {
   Falloff family{};

@@ -87,11 +87,12 @@ Field part_around(const Field& field, FilmPoint place, double reach, FilmPoint& 
 }
 
 /// Peak, place and half-widths by noise that is added; energy and centroid are sums, of which the errors are known.
-HighlightErrors errors_of(const ProfileGeometry& geometry, const Lit& lit, const Outline& outline,
-                          FilmPoint centroid, FilmPoint along, const PictureFacts& facts) {
+records::HighlightErrors errors_of(const ProfileGeometry& geometry, const Lit& lit,
+                                   const Outline& outline, FilmPoint centroid, FilmPoint along,
+                                   const PictureFacts& facts) {
   const PictureNoise* const noise = facts.noise;
-  HighlightErrors errors;
-  errors.noise_is_given = noise != nullptr;
+  records::HighlightErrors errors;
+  errors.source = noise_source(noise != nullptr);
   std::vector<double> error = lit.error;
   if (!noise) error.assign(lit.highlight.values.size(), lit.noise * outline.peak.value);
   for (std::size_t i = 0; i < facts.rounding.size(); ++i)
@@ -140,8 +141,8 @@ HighlightErrors errors_of(const ProfileGeometry& geometry, const Lit& lit, const
       });
   errors.peak = spread[0];
   errors.place = {spread[1], spread[2]};
-  errors.along = spread[3];
-  errors.across = spread[4];
+  errors.half_width_along_pixels = spread[3];
+  errors.half_width_across_pixels = spread[4];
   return errors;
 }
 

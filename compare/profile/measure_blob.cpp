@@ -345,11 +345,11 @@ BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::u
                     errors[8],
                     {errors[2], errors[3]},
                     {errors[4], errors[5]},
-                    resolved ? errors[6] : kNaN,
-                    resolved ? errors[7] : kNaN};
+                    {resolved ? errors[6] : kNaN, resolved ? errors[7] : kNaN}};
   if (figures.clipped) {
-    figures.errors.major_half_width = figures.clipped->flank.major_half_width.error;
-    figures.errors.minor_half_width = figures.clipped->flank.minor_half_width.error;
+    const FalloffFit& flank = figures.clipped->flank;
+    figures.errors.half_width_pixels = {flank.major_half_width.standard_error,
+                                        flank.minor_half_width.standard_error};
   }
   figures.colour = colour_of(source, *patch, above, how, clipped, 1.5 * semi_axis_of(how.rough));
   figures.remark = remark_on(figures, blob.region, field.width, source.film);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "records/profile.hpp"
 
 namespace lobelia {
 
@@ -39,9 +40,7 @@ inline double radiance_at(const Image& image, std::size_t index) {
 /// Pixels that are not finite are holes.
 Field radiance_field(const Image& image);
 
-struct FilmPoint {
-  double x = 0, y = 0;
-};
+using FilmPoint = records::Point;
 inline double distance(FilmPoint a, FilmPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// The centre of a pixel, by its index in reading order.

@@ -125,8 +125,8 @@ void require_pixel_count(const ProfileGeometry& geometry, const NamedImages& ima
     throw Error(ExitCode::kInternal, "the geometry of a profile's pixels differs in number");
   for (const auto& [name, image] : images)
     if (image->pixel_count() != expected)
-      throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film has {}",
-                                                name, image->width(), image->height(), expected));
+      throw Error(ExitCode::kInput, "{} has {} x {} pixels, the scene's film has {}", name,
+                  image->width(), image->height(), expected);
 }
 
 }  // namespace

@@ -83,14 +83,6 @@ struct HalfWidth {
   double angle = 0;  ///< of the lobe there, the mean of both sides, radians
 };
 
-/// Standard errors; NaN if unknown.
-struct HighlightErrors {
-  bool noise_is_given = false;  ///< or else from the scatter of the pixels
-  double peak = 0, energy = 0;
-  FilmPoint place, centroid;
-  double along = 0, across = 0;  ///< half-widths, pixels
-};
-
 /// Figures of the highlight alone, without the radiance beneath it; NaN if unknown.
 struct HighlightFigures {
   Peak peak;           ///< to a fraction of a pixel
@@ -99,9 +91,9 @@ struct HighlightFigures {
   HalfWidth along, across;  ///< the plane of incidence; without one, x and y of the picture
   LobeFit cosine;           ///< down to the end of the blooming zone
   std::string why_not;      ///< a sentence if there is no peak or it is not resolved
-  std::vector<FamilyFit> explanations;       ///< within 3 half-widths, the best first
-  PixelsShow pixels = PixelsShow::kCentres;  ///< what the explanations take them for
-  std::optional<HighlightErrors> errors;
+  std::vector<FamilyFit> explanations;             ///< within 3 half-widths, the best first
+  PixelsShow pixels = PixelsShow::kCentres;        ///< what the explanations take them for
+  std::optional<records::HighlightErrors> errors;  ///< NaN where unknown
 };
 
 /// Facts about a picture besides its values.
@@ -116,6 +108,11 @@ struct PictureFacts {
 /// `geometry.width` is not 0. The picture and its facts have as many pixels as the geometry.
 HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image& image,
                                    const PictureFacts& facts = {});
+
+/// The name of where standard errors come from.
+inline std::string noise_source(bool noise_is_given) {
+  return std::string(records::kNoiseSources[noise_is_given ? 0 : 1]);
+}
 
 struct HighlightShape {
   double peak = 0;        ///< the largest radiance of a lit pixel; NaN if one is not finite

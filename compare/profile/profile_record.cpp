@@ -16,8 +16,6 @@ std::vector<double> scaled(std::vector<double> values, double scale) {
   return values;
 }
 
-records::Point point_record(FilmPoint point) { return {point.x, point.y}; }
-
 records::Peak peak_record(const Peak& peak) {
   return {peak.place.x, peak.place.y, peak.value,
           std::string(records::kPeakFound[std::size_t(peak.found)])};
@@ -27,10 +25,6 @@ records::ZoneErrors zones_record(const ZoneErrors& zones) { return {zones[0], zo
 
 records::HalfWidth half_width_record(const HalfWidth& width) {
   return {width.pixels, width.angle * kDegrees};
-}
-
-std::string source_name(bool noise_is_given) {
-  return std::string(records::kNoiseSources[noise_is_given ? 0 : 1]);
 }
 
 records::LobeExplanation explanation_record(const FamilyFit& family) {
@@ -53,16 +47,10 @@ records::LobeExplanation explanation_record(const FamilyFit& family) {
   return record;
 }
 
-records::HighlightErrors errors_record(const HighlightErrors& errors) {
-  return {
-      source_name(errors.noise_is_given), errors.peak,  errors.energy, point_record(errors.place),
-      point_record(errors.centroid),      errors.along, errors.across};
-}
-
 records::HighlightFigures figures_record(const HighlightFigures& figures) {
   records::HighlightFigures record;
   record.peak = peak_record(figures.peak);
-  record.centroid = point_record(figures.centroid);
+  record.centroid = figures.centroid;
   record.half_width_along = half_width_record(figures.along);
   record.half_width_across = half_width_record(figures.across);
   record.energy = figures.energy;
@@ -81,18 +69,16 @@ records::HighlightFigures figures_record(const HighlightFigures& figures) {
     record.explanations.push_back(explanation_record(family));
   if (!figures.explanations.empty())
     record.pixels_show = records::kPixelsShow[std::size_t(figures.pixels)];
-  if (figures.errors) record.standard_errors = errors_record(*figures.errors);
+  record.standard_errors = figures.errors;
   return record;
 }
 
-records::Estimate estimate_record(const Estimate& one) { return {one.value, one.error}; }
-
 records::Falloff falloff_record(const FalloffFit& fit) {
   return {std::string(records::kFalloffs[std::size_t(fit.family)]),
-          estimate_record(fit.peak),
-          estimate_record(fit.major_half_width),
-          estimate_record(fit.minor_half_width),
-          point_record(fit.place),
+          fit.peak,
+          fit.major_half_width,
+          fit.minor_half_width,
+          fit.place,
           fit.residual,
           fit.pixels,
           fit.why_not};
@@ -106,8 +92,8 @@ records::BlobFigures figures_record(const BlobFigures& blob) {
   record.peak = peak_record(blob.peak);
   record.background = blob.background;
   record.pixels = blob.pixels;
-  record.centroid = point_record(blob.axes.centre);
-  record.major_axis = point_record(blob.axes.major);
+  record.centroid = blob.axes.centre;
+  record.major_axis = blob.axes.major;
   record.half_width_pixels = {blob.major_half_width, blob.minor_half_width};
   record.gaussian_sigma_pixels = {kSigma * blob.major_half_width, kSigma * blob.minor_half_width};
   record.energy = blob.energy;
@@ -115,13 +101,7 @@ records::BlobFigures figures_record(const BlobFigures& blob) {
   record.because = blob.why_not;
   record.remark = blob.remark;
   if (!blob.why_not.empty()) return record;
-  const BlobErrors& errors = blob.errors;
-  record.standard_errors = records::BlobErrors{errors.background,
-                                               errors.peak,
-                                               errors.energy,
-                                               point_record(errors.place),
-                                               point_record(errors.centroid),
-                                               {errors.major_half_width, errors.minor_half_width}};
+  record.standard_errors = blob.errors;
   if (std::isfinite(blob.noise)) record.noise_of_peak = blob.noise;
   record.colour = records::Colour{blob.colour[0], blob.colour[1], blob.colour[2]};
   if (blob.clipped)
@@ -144,7 +124,7 @@ records::Profile profile_record(const Profile& profile, int light, int sphere,
                       profile.ends[zone] * kDegrees};
   };
   record.zones = {range(0), range(1), range(2)};
-  if (profile.incidence) record.plane_of_incidence = point_record(*profile.incidence);
+  record.plane_of_incidence = profile.incidence;
   record.curve.angle_degrees = scaled(profile.angle, kDegrees);
   record.curve.pixels = profile.pixels;
   for (std::size_t k = 0; k < profile.names.size(); ++k) {
@@ -171,13 +151,7 @@ records::Blob blob_record(const BlobProfile& profile) {
   record.zones = {kZoneShares[0], kZoneShares[1], kZoneShares[2]};
   for (std::size_t k = 0; k < profile.names.size(); ++k)
     record.images.emplace_back(profile.names[k], figures_record(profile.blobs[k]));
-  for (const BlobCurve& curve : profile.curves) {
-    records::BlobCurve& columns =
-        record.curves.emplace_back(curve.axis, records::BlobCurve{}).second;
-    columns.offset_pixels = curve.offset;
-    for (std::size_t k = 0; k < profile.names.size(); ++k)
-      columns.radiance.emplace_back(profile.names[k], curve.radiance[k]);
-  }
+  record.curves = profile.curves;
   if (profile.difference)
     record.differences.emplace_back(profile.names[0] + "-" + profile.names[1],
                                     zones_record(*profile.difference));
@@ -191,10 +165,10 @@ records::Blobs blobs_record(const BlobProfiles& profiles, double least_share) {
   for (const BlobPicture& picture : profiles.pictures) {
     records::BlobPicture& one =
         record.pictures.emplace_back(picture.name, records::BlobPicture{}).second;
-    one.standard_errors_from = source_name(picture.noise_is_given);
+    one.standard_errors_from = noise_source(picture.noise_is_given);
     for (const Speck& speck : picture.specks) {
       if (one.specks.size() == kMostSpecks) break;
-      one.specks.push_back({point_record(speck.place), speck.value, speck.pixels.size()});
+      one.specks.push_back({speck.place, speck.value, speck.pixels.size()});
     }
     one.more_specks = picture.specks.size() - one.specks.size();
     one.more_highlights = picture.left_out;

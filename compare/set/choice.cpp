@@ -258,14 +258,14 @@ const CompareOption& option_named(const std::string& given) {
     std::ranges::replace(shown.back(), '-', '_');
   }
   const std::vector<std::string_view> names(shown.begin(), shown.end());
-  return *chosen(given, "option", names, join(names), [&](const std::string&) {
+  return *chosen(given, "option", names, [&](const std::string&) {
     const auto found = std::ranges::find(all, name, &CompareOption::name);
     return found == all.end() ? std::nullopt : std::optional(&*found);
   });
 }
 
 [[noreturn]] void refuse_value(const CompareOption& option, const std::string& why) {
-  throw Error(ExitCode::kUsage, fmt::format("--{}: {}", option.name, why));
+  throw Error(ExitCode::kUsage, "--{}: {}", option.name, why);
 }
 
 void check_value(const CompareOption& option, const std::string& text) {

@@ -35,8 +35,8 @@ std::vector<std::vector<std::string>> csv_records(const std::string& file,
       if (more) ++at;
     }
     if (at < text.size() && text[at] != '\r' && text[at] != '\n')
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: record {}: text after a quotation mark", file, records.size()));
+      throw Error(ExitCode::kInput, "{}: record {}: text after a quotation mark", file,
+                  records.size());
     if (at < text.size() && text[at] == '\r') ++at;
     if (at < text.size() && text[at] == '\n') ++at;
     if (record.size() == 1 && record.front().empty()) records.pop_back();

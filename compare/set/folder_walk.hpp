@@ -47,7 +47,7 @@ class FolderWalk {
 
  private:
   [[noreturn]] void fail(const std::string& why) const {
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", root_.string(), why));
+    throw Error(ExitCode::kInput, "{}: {}", root_.string(), why);
   }
 
   /// `real` contains no links; `name` is the path from the root, which may.

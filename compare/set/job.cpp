@@ -42,8 +42,8 @@ void check_rules(const CompareJob& job) {
       judged.warnings = job.rules[i].warnings;
       check_options(judged);
     } catch (const Error& error) {
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: rules[{}]: {}", printable_path(job.project), i, error.what()));
+      throw Error(ExitCode::kInput, "{}: rules[{}]: {}", printable_path(job.project), i,
+                  error.what());
     }
 }
 
@@ -143,21 +143,20 @@ std::optional<records::Known> known_of(const CompareJob& job, const std::string&
 
 void check_companions(const CompareJob& job, const Pairing& pairing) {
   const auto fail = [&](std::string_view what) {
-    throw Error(ExitCode::kUsage, fmt::format("{} needs two files, or folders that are paired by "
-                                              "name, in which it has the same name",
-                                              what));
+    throw Error(ExitCode::kUsage,
+                "{} needs two files, or folders that are paired by "
+                "name, in which it has the same name",
+                what);
   };
-  const bool by_name = has_folders_by_name(job, pairing);
+  const bool by_name = pairing.is_by_name;
   if (!by_name && !is_one_pair(pairing)) {
     if (!job.c.empty()) fail("--reference-floor");
     if (!job.noise.files("").empty()) fail("a picture of noise");
   }
   std::error_code unknown;
   if (!job.c.empty() && fs::is_directory(job.c, unknown) != by_name)
-    throw Error(ExitCode::kInput,
-                fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
-                            job.pictures.given.front(), by_name ? "" : "not ", job.c,
-                            by_name ? " not" : ""));
+    throw Error(ExitCode::kInput, "{} is {}a folder, but {} is{}; compare two files or two folders",
+                job.pictures.given.front(), by_name ? "" : "not ", job.c, by_name ? " not" : "");
 }
 
 }  // namespace lobelia

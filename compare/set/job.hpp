@@ -74,11 +74,6 @@ std::optional<records::Known> known_of(const CompareJob& job, const std::string&
 inline bool is_one_pair(const Pairing& pairing) {
   return pairing.is_one_row && pairing.sets.size() == 2 + pairing.also_accepted;
 }
-/// Whether pictures of noise and second references have the names of the rows.
-inline bool has_folders_by_name(const CompareJob& job, const Pairing& pairing) {
-  return !pairing.is_one_row && pairing.fields.empty() && job.pictures.csv.empty() &&
-         job.pictures.pattern.empty();
-}
 /// Throws unless the second reference and the pictures of noise can be told which pair they are of.
 void check_companions(const CompareJob& job, const Pairing& pairing);
 

@@ -29,8 +29,8 @@ NoiseFiles::NoiseFiles(const CompareChoice& choice, ComparisonOptions& options)
       freedom_(choice.freedom) {
   for (const auto& [letter, side] : {std::pair{"a", &a_}, {"b", &b_}}) {
     if (side->given() && is_from_layers(letter))
-      throw Error(ExitCode::kUsage,
-                  fmt::format("--noise-from-layers {0}: the noise of {0} is given twice", letter));
+      throw Error(ExitCode::kUsage, "--noise-from-layers {0}: the noise of {0} is given twice",
+                  letter);
     if (side->samples > 0 && !is_from_layers(letter) && side->variance.empty())
       throw Error(
           ExitCode::kUsage,
@@ -94,9 +94,9 @@ std::optional<PictureNoise> NoiseFiles::read_side(const Side& side, const std::s
       const double samples = side.samples > 0 ? side.samples : picture.source.samples;
       if (samples == 0)
         throw Error(ExitCode::kUsage,
-                    fmt::format("{} does not say how many samples a pixel has; give them with "
-                                "--{}-samples, or 1 if the variance is that of the mean",
-                                printable_path(file), letter));
+                    "{} does not say how many samples a pixel has; give them with "
+                    "--{}-samples, or 1 if the variance is that of the mean",
+                    printable_path(file), letter);
       return noise_of_variances(read(side.variance), samples, freedom_, shared);
     }
     if (side.replicates.empty()) return std::nullopt;
@@ -107,12 +107,13 @@ std::optional<PictureNoise> NoiseFiles::read_side(const Side& side, const std::s
     picture.image = std::move(mean.image);
     return std::move(mean.noise);
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", option, error.what()));
+    throw Error(error.code(), "{}: {}", option, error.what());
   }
 }
 
-void NoiseFiles::read(const std::string& name, const PairReport& files, PicturePair& pair,
+void NoiseFiles::read(const PairReport& files, PicturePair& pair,
                       ComparisonOptions& options) const {
+  const std::string& name = files.name_in_folders;
   if (!options.noise) return;
   options.noise->a = read_side(a_, "a", name, files.a, pair.a);
   options.noise->b = read_side(b_, "b", name, files.b, pair.b);

@@ -28,12 +28,11 @@ class NoiseFiles {
   std::vector<std::filesystem::path> files(const std::string& name) const;
   /// The endings of the files beside the pictures. Such files are no pictures of a set.
   std::vector<std::string> endings() const;
-  /// Reads the pictures of the noise: the named files, or if `name` is not empty the files of that name in the named
-  /// folders, those beside the pair's own files, or the layers of the pair's own files. `pair` become the means of themselves and their replicates. Throws
-  /// Error(kInput) for pictures that cannot be read, have another size, or are no standard errors; errors of
-  /// noise_of_layers().
-  void read(const std::string& name, const PairReport& files, PicturePair& pair,
-            ComparisonOptions& options) const;
+  /// Reads the pictures of the noise: the named files, or if the pair has a name in folders the files of that name in the
+  /// named folders, those beside the pair's own files, or the layers of the pair's own files. `pair` become the means of
+  /// themselves and their replicates. Throws Error(kInput) for pictures that cannot be read, have another size, or are no
+  /// standard errors; errors of noise_of_layers().
+  void read(const PairReport& files, PicturePair& pair, ComparisonOptions& options) const;
   /// Whether a picture is the mean of several files.
   bool has_replicates() const { return !a_.replicates.empty() || !b_.replicates.empty(); }
 

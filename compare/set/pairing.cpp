@@ -33,8 +33,8 @@ class Rows {
     row.fields = fields;
     row.files.resize(sets_);
     if (!row.files[set].empty())
-      throw Error(ExitCode::kInput, fmt::format("{} and {}: both are the picture of {}",
-                                                row.files[set], file, printable(name)));
+      throw Error(ExitCode::kInput, "{} and {}: both are the picture of {}", row.files[set], file,
+                  printable(name));
     row.files[set] = file;
   }
   std::vector<PictureRow> sorted() && {
@@ -110,6 +110,7 @@ std::map<std::string, FolderWalk> walk_all(const PairingChoice& choice, Pairing&
 
 Pairing pair_folders(const PairingChoice& choice) {
   Pairing pairing{titles_of(choice.given), {}, {}, 0, {}};
+  pairing.is_by_name = true;
   const auto walks = walk_all(choice, pairing);
   Rows rows(choice.given.size());
   for (std::size_t set = 0; set < choice.given.size(); ++set)
@@ -134,9 +135,9 @@ SetField parse_sets(const std::string& text) {
   if (field.name.empty() || field.values.size() < 2 ||
       std::set(field.values.begin(), field.values.end()).size() < field.values.size())
     throw Error(ExitCode::kUsage,
-                fmt::format("--sets {}: expected FIELD=JUDGED,REFERENCE and perhaps more values, "
-                            "each once, for example engine=mine,reference",
-                            printable(text)));
+                "--sets {}: expected FIELD=JUDGED,REFERENCE and perhaps more values, "
+                "each once, for example engine=mine,reference",
+                printable(text));
   return field;
 }
 
@@ -165,8 +166,8 @@ class NamePattern {
     if (fields.empty()) fail(pattern, "no {field}");
     if (fields.size() > kMostFields) fail(pattern, "over 16 fields");
     if (!sets.name.empty() && std::ranges::count(fields, sets.name) == 0)
-      throw Error(ExitCode::kUsage, fmt::format("--sets: --pattern {} has no field {{{}}}",
-                                                printable(pattern), printable(sets.name)));
+      throw Error(ExitCode::kUsage, "--sets: --pattern {} has no field {{{}}}", printable(pattern),
+                  printable(sets.name));
   }
 
   std::vector<std::string> fields;  ///< in their order; "" tells nothing apart
@@ -187,9 +188,10 @@ class NamePattern {
   };
 
   [[noreturn]] static void fail(const std::string& pattern, std::string_view what) {
-    throw Error(ExitCode::kUsage, fmt::format("--pattern {}: {}; expected a name with fields, "
-                                              "for example {{scene}}_{{engine}}.exr",
-                                              printable(pattern), what));
+    throw Error(ExitCode::kUsage,
+                "--pattern {}: {}; expected a name with fields, "
+                "for example {{scene}}_{{engine}}.exr",
+                printable(pattern), what);
   }
   bool fits(const std::string& name, std::size_t at, std::size_t piece,
             std::vector<std::string>& values, std::vector<bool>& in_vain) const {
@@ -222,8 +224,8 @@ Pairing pair_by_pattern(const PairingChoice& choice) {
                 "--pattern with one folder needs --sets: which field tells the sets apart, and "
                 "its values, for example --sets engine=mine,reference");
   if (!one_folder && !sets.name.empty() && sets.values.size() != choice.given.size())
-    throw Error(ExitCode::kUsage, fmt::format("--sets names {} sets, and there are {} folders",
-                                              sets.values.size(), choice.given.size()));
+    throw Error(ExitCode::kUsage, "--sets names {} sets, and there are {} folders",
+                sets.values.size(), choice.given.size());
   Pairing pairing;
   pairing.sets = one_folder ? sets.values : titles_of(choice.given);
   for (const std::string& field : pattern.fields)
@@ -328,8 +330,8 @@ Pairing pair_sequences(const PairingChoice& choice) {
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
       if (++files > choice.most_files)
-        throw Error(ExitCode::kInput,
-                    fmt::format("{}: holds over {} files", folder.string(), choice.most_files));
+        throw Error(ExitCode::kInput, "{}: holds over {} files", folder.string(),
+                    choice.most_files);
       const std::string name = entry->path().filename().string();
       const fs::path file = path.parent_path() / name;
       const std::string number = frame_of(name, sequence);
@@ -344,8 +346,7 @@ Pairing pair_sequences(const PairingChoice& choice) {
       taken.insert(file.lexically_normal());
     }
     if (error)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+      throw Error(ExitCode::kInput, "{}: cannot be read: {}", folder.string(), error.message());
     if (std::ranges::none_of(frames, [&](const Frame& frame) { return frame.set == set; }))
       throw Error(
           ExitCode::kInput,
@@ -373,7 +374,7 @@ Pairing pair_by_csv(const PairingChoice& choice) {
   constexpr std::size_t kMostSets = 64;
   const auto records = csv_records(choice.csv, read_file(choice.csv, kMostBytes));
   const auto fail = [&](std::string_view why) {
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", printable_path(choice.csv), why));
+    throw Error(ExitCode::kInput, "{}: {}", printable_path(choice.csv), why);
   };
   if (records.empty()) fail("is empty; its first line has the titles of the sets");
   std::vector<std::string> header = records.front();
@@ -423,14 +424,13 @@ bool all_are(const std::vector<std::string>& given, bool (*is_such)(const std::s
   for (const std::string& path : given)
     if (std::error_code unknown;
         is_such(path) != first && !fs::exists(path, unknown) && !is_sequence(path))
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: no such file or folder", printable_path(path)));
+      throw Error(ExitCode::kInput, "{}: no such file or folder", printable_path(path));
     else if (is_such(path) != first)
       throw Error(ExitCode::kInput,
-                  fmt::format("{} is {}a {}, but {} is{}; compare files with files, folders with "
-                              "folders and sequences with sequences",
-                              printable_path(given.front()), first ? "" : "not ", such,
-                              printable_path(path), first ? " not" : ""));
+                  "{} is {}a {}, but {} is{}; compare files with files, folders with "
+                  "folders and sequences with sequences",
+                  printable_path(given.front()), first ? "" : "not ", such, printable_path(path),
+                  first ? " not" : "");
   return first;
 }
 
@@ -474,8 +474,8 @@ Pairing pair_pictures(PairingChoice choice) {
   const bool folders = all_are(choice.given, is_folder, "folder");
   if (!choice.pattern.empty()) {
     if (!folders)
-      throw Error(ExitCode::kInput, fmt::format("{} is no folder, which --pattern needs",
-                                                printable_path(choice.given.front())));
+      throw Error(ExitCode::kInput, "{} is no folder, which --pattern needs",
+                  printable_path(choice.given.front()));
     return pair_by_pattern(choice);
   }
   if (choice.given.size() < 2)

@@ -22,18 +22,16 @@ MetricLimit parse_limit(std::string_view where, const std::string& text) {
   const bool is_percent = text.ends_with('%');
   const std::size_t digits = text.size() - std::min(text.size(), equals + 1) - is_percent;
   if (equals == std::string::npos || !parse_number(text.substr(equals + 1, digits), limit.limit))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: expected METRIC=LIMIT, for example rmse=0.001", where,
-                            printable(text)));
+    throw Error(ExitCode::kUsage, "{} {}: expected METRIC=LIMIT, for example rmse=0.001", where,
+                printable(text));
   const MetricOutput* output = find_metric_output(limit.metric);
   if (is_percent && output && output->unit != Unit::kShare)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: {} is no share, so its limit is no percentage", where,
-                            printable(text), limit.metric));
+    throw Error(ExitCode::kUsage, "{} {}: {} is no share, so its limit is no percentage", where,
+                printable(text), limit.metric);
   if (is_percent) limit.limit /= 100;
   if (output && output->better != Better::kNeither)
     if (const std::string problem = limit_problem(*output, limit.limit); !problem.empty())
-      throw Error(ExitCode::kUsage, fmt::format("{} {}: {}", where, printable(text), problem));
+      throw Error(ExitCode::kUsage, "{} {}: {}", where, printable(text), problem);
   return limit;
 }
 
@@ -49,9 +47,10 @@ Tolerance parse_tolerance(std::string_view where, const std::string& text) {
   long long count = 0;
   if (parts.size() != 3 || !parse_number(parts[0], tolerance.relative) ||
       !parse_number(parts[1], tolerance.of_peak) || !parse_integer(parts[2], count))
-    throw Error(ExitCode::kUsage, fmt::format("{} {}: expected RELATIVE,OF_PEAK,OUTLIERS, "
-                                              "for example 6e-4,1e-6,3",
-                                              where, printable(text)));
+    throw Error(ExitCode::kUsage,
+                "{} {}: expected RELATIVE,OF_PEAK,OUTLIERS, "
+                "for example 6e-4,1e-6,3",
+                where, printable(text));
   tolerance.allowed_outliers = count;
   return tolerance;
 }

@@ -131,8 +131,7 @@ void apply_project(CompareChoice& choice, CompareJob& job) {
   try {
     fill_in(project, choice, job);
   } catch (const Error& error) {
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: {}", printable_path(choice.project), error.what()));
+    throw Error(ExitCode::kInput, "{}: {}", printable_path(choice.project), error.what());
   }
 }
 

@@ -23,6 +23,7 @@ struct PairReport {
   std::optional<PicturePairSource> sources = {};  ///< how both files were read
   std::optional<OtherLayers> layers = {};         ///< everything besides the display window
   std::size_t row = 0, set = 0;                   ///< of `a` in the Pairing
+  std::string name_in_folders = {};  ///< of its pictures of noise; empty: they are given as files
   std::vector<std::string> references = {};  ///< all that are acceptable; `b` is the best of them
   std::optional<records::Known> known = {};  ///< what was said of its difference beforehand
   PairHashes hashes = {};                    ///< if they were asked for

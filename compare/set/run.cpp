@@ -89,25 +89,24 @@ void compare_rest(PairReport& pair, const PicturePair& pictures, const CompareJo
 }
 
 /// Makes pictures that were read ready to be judged: with the noise, and the parts that are compared.
-void prepare(PicturePair& pictures, const PairReport& pair, const std::string& name_of_noise,
-             const CompareJob& job, ComparisonOptions& options) {
-  job.noise.read(name_of_noise, pair, pictures, options);
+void prepare(PicturePair& pictures, const PairReport& pair, const CompareJob& job,
+             ComparisonOptions& options) {
+  job.noise.read(pair, pictures, options);
   const Image &a = pictures.a.image, &b = pictures.b.image;
   if (!options.surfaces.empty() && options.surfaces.size() != a.pixel_count())
-    throw Error(ExitCode::kInput,
-                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
-                            a.height(), job.scene, options.surfaces.size()));
+    throw Error(ExitCode::kInput, "{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
+                a.height(), job.scene, options.surfaces.size());
   job.parts.apply(b.width(), b.height(), options);
   take_part(pictures, pair.a, pair.b, options);
 }
 
 /// Calls look(pair, a, b) once the pair is compared, if there is such a function.
-PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
-                        bool choose_exposures, const LookAtPair& look) {
+PairReport compare_pair(PairReport pair, const CompareJob& job, bool choose_exposures,
+                        const LookAtPair& look) {
   const auto started = std::chrono::steady_clock::now();
   const SteadyFile file_a(pair.a), file_b(pair.b);
   ComparisonOptions options = job.comparison;
-  PicturePair pictures = read_compared(pair, job, pairing, options);
+  PicturePair pictures = read_compared(pair, job, options);
   judge_pair(pair, pictures, job, options, choose_exposures);
   compare_rest(pair, pictures, job, options);
   if (job.hash_files) pair.hashes = {file_a.digest(), file_b.digest()};
@@ -117,8 +116,7 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
 }
 
 /// Compares with each reference. The best one passes, or else is the least over its limits.
-PairReport compare_with_each(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
-                             bool choose_exposures) {
+PairReport compare_with_each(const PairReport& pair, const CompareJob& job, bool choose_exposures) {
   const auto fit = [](const PairReport& one) {
     return std::pair(!is_pass(one.verdict()), excess(one));
   };
@@ -126,7 +124,7 @@ PairReport compare_with_each(const PairReport& pair, const CompareJob& job, cons
   for (const std::string& reference : pair.references) {
     PairReport one = pair;
     one.b = reference;
-    one = compare_pair(one, job, pairing, choose_exposures, nullptr);
+    one = compare_pair(one, job, choose_exposures, nullptr);
     if (!best || fit(one) < fit(*best)) best = std::move(one);
   }
   return *best;
@@ -194,6 +192,7 @@ std::vector<PairReport> pairs_of(const Pairing& pairing) {
       PairReport pair{name_of(pairing, row, set), files[set], references.front(), "", {}, {}, 0};
       pair.row = row;
       pair.set = set;
+      if (pairing.is_by_name) pair.name_in_folders = pairing.rows[row].name;
       pair.references = references;
       pairs.push_back(std::move(pair));
     }
@@ -214,17 +213,16 @@ PicturePair read_two(const CompareJob& job, const PairReport& pair) {
   return read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers));
 }
 
-PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+PicturePair read_compared(const PairReport& pair, const CompareJob& job,
                           ComparisonOptions& options) {
   PicturePair pictures = read_two(job, pair);
-  prepare(pictures, pair, has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "", job,
-          options);
+  prepare(pictures, pair, job, options);
   return pictures;
 }
 
 PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures) {
   ComparisonOptions options = job.comparison;
-  prepare(pictures, pair, "", job, options);
+  prepare(pictures, pair, job, options);
   judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
   compare_rest(pair, pictures, job, options);
   require_judged_limits(job, {&pair, 1});
@@ -234,7 +232,7 @@ PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pict
 PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair& pictures,
                              std::optional<PicturePair> alpha) {
   ComparisonOptions options = job.comparison;
-  prepare(pictures, pair, "", job, options);
+  prepare(pictures, pair, job, options);
   judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
   if (alpha) {
     OtherLayers& others = pair.layers.emplace();
@@ -251,9 +249,9 @@ PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair
 void require_pairs(const SetReport& report) {
   if (report.pairs.empty())
     throw Error(ExitCode::kInput,
-                fmt::format("no pair to compare: {} references have no picture, {} pictures no "
-                            "reference, and {} files are no pictures or do not fit the pattern",
-                            report.missing.size(), report.extra.size(), report.passed_over));
+                "no pair to compare: {} references have no picture, {} pictures no "
+                "reference, and {} files are no pictures or do not fit the pattern",
+                report.missing.size(), report.extra.size(), report.passed_over);
 }
 
 SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
@@ -283,7 +281,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
     }
   report.pairs = pairs_of(pairing);
   for (PairReport& pair : report.pairs)
-    if (!job.c.empty()) pair.c = one ? job.c : file_of(job.c, pairing.rows[pair.row].name).string();
+    if (!job.c.empty()) pair.c = file_of(job.c, pair.name_in_folders).string();
   const bool automatic = has_automatic_exposures(job.comparison);
   if (automatic && !one)
     job.comparison.viewing.hdr_exposures = exposures_for_all(report.pairs, job);
@@ -293,8 +291,8 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
     try {
       const CompareJob own = job_of(job, pair.name);
       const bool several = pair.references.size() > 1;
-      if (several) pair = compare_with_each(pair, own, pairing, automatic && one);
-      if (!several || look) pair = compare_pair(pair, own, pairing, automatic && one, look);
+      if (several) pair = compare_with_each(pair, own, automatic && one);
+      if (!several || look) pair = compare_pair(pair, own, automatic && one, look);
       pair.known = known_of(job, pair.name);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kInput) throw;

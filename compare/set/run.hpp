@@ -24,7 +24,7 @@ std::array<records::Named<std::string>, 2> reading_of(const PairReport& pair);
 
 /// Reads the pair as it is compared: the part of the chosen layer, or of the mean of its replicates. `job` is that of the
 /// pair. Sets what depends on the pictures in `options`. Throws as read_pair().
-PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+PicturePair read_compared(const PairReport& pair, const CompareJob& job,
                           ComparisonOptions& options);
 
 /// Reads both files as they are: the chosen layer, whole. Throws as read_pair().

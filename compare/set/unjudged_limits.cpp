@@ -111,9 +111,8 @@ void require_judged_limits(const CompareJob& job, std::span<const PairReport> pa
     if (!left.names.empty())
       others = fmt::format("; not compared: {}{}", some(left.names),
                            job.layers.all || job.comparison.noise ? "" : " (try --all-layers)");
-    throw Error(ExitCode::kUsage,
-                fmt::format("the limit on '{}' judged nothing: it needs {}; compared: {}{}", metric,
-                            needed_by(metric), some(compared.names), others));
+    throw Error(ExitCode::kUsage, "the limit on '{}' judged nothing: it needs {}; compared: {}{}",
+                metric, needed_by(metric), some(compared.names), others);
   }
 }
 

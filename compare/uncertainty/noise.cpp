@@ -145,22 +145,20 @@ PictureNoise noise_of(const Image& error, double freedom, bool shared) {
 /// Throws Error(kInput) for a picture that is no error or no variance.
 void require_errors(const Image& image, std::string_view what) {
   if (image.pixel_count() == 0)
-    throw Error(ExitCode::kInput, fmt::format("the picture of {}s has no pixels", what));
+    throw Error(ExitCode::kInput, "the picture of {}s has no pixels", what);
   const auto values = image.values();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] >= 0) || !std::isfinite(values[i]))
-      throw Error(ExitCode::kInput,
-                  fmt::format("a {} is {} at pixel ({}, {}); it must be finite and not negative",
-                              what, values[i], i / 3 % std::size_t(image.width()),
-                              i / 3 / std::size_t(image.width())));
+      throw Error(
+          ExitCode::kInput, "a {} is {} at pixel ({}, {}); it must be finite and not negative",
+          what, values[i], i / 3 % std::size_t(image.width()), i / 3 / std::size_t(image.width()));
 }
 
 }  // namespace
 
 PictureNoise noise_of_standard_errors(const Image& standard_error, double freedom, bool shared) {
   if (!(freedom >= 1))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} degrees of freedom; there must be at least 1", freedom));
+    throw Error(ExitCode::kUsage, "{} degrees of freedom; there must be at least 1", freedom);
   require_errors(standard_error, "standard error");
   return noise_of(standard_error, freedom, shared);
 }
@@ -168,8 +166,7 @@ PictureNoise noise_of_standard_errors(const Image& standard_error, double freedo
 PictureNoise noise_of_variances(const Image& variance, double samples, double freedom,
                                 bool shared) {
   if (!(samples >= 1))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{:g} samples a pixel; there must be at least 1", samples));
+    throw Error(ExitCode::kUsage, "{:g} samples a pixel; there must be at least 1", samples);
   require_errors(variance, "variance");
   Image error = variance;
   for (float& value : error.values()) value = float(std::sqrt(double(value) / samples));

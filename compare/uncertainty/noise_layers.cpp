@@ -68,13 +68,13 @@ double samples_of(const fs::path& file, const Picture& picture, const NoiseLayer
             file.string()));
   if (!(samples >= 2))
     throw Error(ExitCode::kUsage,
-                fmt::format("{} has {:g} samples a pixel; noise cannot be told from fewer than 2",
-                            file.string(), samples));
+                "{} has {:g} samples a pixel; noise cannot be told from fewer than 2",
+                file.string(), samples);
   return samples;
 }
 
 [[noreturn]] void no_noise(const fs::path& file, const std::string& why) {
-  throw Error(ExitCode::kInput, fmt::format("{}: {}", file.string(), why));
+  throw Error(ExitCode::kInput, "{}: {}", file.string(), why);
 }
 
 [[noreturn]] void no_noise_layer(const fs::path& file, const PictureSource& source,

@@ -35,7 +35,7 @@ void measure_blob(const MadeBlob& made, bool clipped, Row& row) {
   if (clipped) {
     if (blob.clipped) {
       const Estimate& peak = blob.clipped->flank.peak;
-      row.figures["peak"].add(peak.value, made.peak, peak.error, made.peak);
+      row.figures["peak"].add(peak.value, made.peak, peak.standard_error, made.peak);
     } else {
       ++row.figures["peak"].missing;
     }
@@ -47,8 +47,10 @@ void measure_blob(const MadeBlob& made, bool clipped, Row& row) {
     row.figures["centroid"].add(blob.axes.centre.y, made.y, e.centroid.y, 1);
     row.figures["energy"].add(blob.energy, made.energy, e.energy, made.energy);
   }
-  row.figures["half-width"].add(blob.major_half_width, made.major, e.major_half_width, made.major);
-  row.figures["half-width"].add(blob.minor_half_width, made.minor, e.minor_half_width, made.minor);
+  row.figures["half-width"].add(blob.major_half_width, made.major, e.half_width_pixels.major,
+                                made.major);
+  row.figures["half-width"].add(blob.minor_half_width, made.minor, e.half_width_pixels.minor,
+                                made.minor);
 }
 
 double median_of(std::vector<double> values) {

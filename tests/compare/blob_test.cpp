@@ -44,16 +44,17 @@ TEST(Blob, CurvesRunThroughThePeakOfTheReferenceAlongItsAxes) {
   const Image a = picture(170, 150, [](double, double) { return 1; }), b = tilted();
   const BlobProfile profile = profile_of({{"a", &a}, {"b", &b}});
   ASSERT_EQ(profile.curves.size(), 2u);
-  for (const auto& [curve, half] :
-       {std::pair{profile.curves[0], kTilted.major}, {profile.curves[1], kTilted.minor}})
-    for (std::size_t k = 0; k < curve.offset.size(); ++k) {
-      EXPECT_NEAR(curve.radiance[0][k], 1, 1e-6);
-      EXPECT_NEAR(curve.radiance[1][k],
-                  kBackground + kTilted.peak * std::exp2(-std::pow(curve.offset[k] / half, 2)),
+  for (const auto& [axis, curve] : profile.curves)
+    for (std::size_t k = 0; k < curve.offset_pixels.size(); ++k) {
+      const double offset = curve.offset_pixels[k];
+      const double half = axis == "major" ? kTilted.major : kTilted.minor;
+      EXPECT_NEAR(curve.radiance[0].second[k], 1, 1e-6);
+      EXPECT_NEAR(curve.radiance[1].second[k],
+                  kBackground + kTilted.peak * std::exp2(-std::pow(offset / half, 2)),
                   5e-3 * kTilted.peak)
-          << curve.axis << ' ' << curve.offset[k];
+          << axis << ' ' << offset;
     }
-  EXPECT_LT(profile.curves[0].offset.front(), -3.1 * kTilted.major);
+  EXPECT_LT(profile.curves[0].second.offset_pixels.front(), -3.1 * kTilted.major);
 }
 
 TEST(Blob, PutsADifferenceIntoTheZoneOfTheReference) {

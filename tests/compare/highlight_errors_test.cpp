@@ -62,8 +62,8 @@ std::array<double, kFigures> coverage(bool given, int draws) {
                                                  {blob.peak.place.y, e.place.y},
                                                  {blob.axes.centre.x, e.centroid.x},
                                                  {blob.axes.centre.y, e.centroid.y},
-                                                 {blob.major_half_width, e.major_half_width},
-                                                 {blob.minor_half_width, e.minor_half_width},
+                                                 {blob.major_half_width, e.half_width_pixels.major},
+                                                 {blob.minor_half_width, e.half_width_pixels.minor},
                                                  {blob.energy, e.energy}};
       for (std::size_t f = 0; f < kFigures; ++f)
         within[f] += (std::abs(found[f].first - truth[f]) <= 2 * found[f].second) / (8.0 * draws);
@@ -99,7 +99,7 @@ TEST(HighlightErrors, GrowWithTheTextureBeneath) {
   };
   const BlobErrors smooth = of(0), coarse = of(0.1);
   EXPECT_GT(coarse.peak, 10 * smooth.peak);
-  EXPECT_GT(coarse.major_half_width, 10 * smooth.major_half_width);
+  EXPECT_GT(coarse.half_width_pixels.major, 10 * smooth.half_width_pixels.major);
   // A tenth of texture moves a peak of two by a few hundredths.
   EXPECT_GT(coarse.peak, 0.005);
   EXPECT_LT(coarse.peak, 0.2);
