@@ -289,8 +289,8 @@ class JobMaker {
         if (engine.name == one->engine) floors.push_back(engine.engine->info().floor);
     }
     make_comparison(scene, {a.engine, b.engine, a.engine == graph_.whose(job)},
-                    read_pictures(scene, a, b, pictures.size() > 2 ? pictures[2] : a), floors, draft,
-                    record);
+                    read_pictures(scene, a, b, pictures.size() > 2 ? pictures[2] : a), floors,
+                    draft, record);
   }
   struct Made {
     std::unique_ptr<Claim> claim;
