@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "bench/inputs.hpp"
+#include "bench/paired_times.hpp"
 #include "core/files.hpp"
-#include "core/paired_times.hpp"
 #include "core/timing.hpp"
 
 namespace lobelia::bench {

@@ -21,10 +21,6 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void output_error(const fs::path& path, int error) {
-  throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
-}
-
 /// The file that a write to `path` replaces. Throws Error(kOutput) for anything but a regular file: a rename would
 /// replace a device by a file.
 fs::path final_target(const fs::path& path, AtLink at_link) {
@@ -34,10 +30,10 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
   if (type == fs::file_type::symlink) {
     if (at_link == AtLink::kReplace) return path;
     target = fs::weakly_canonical(path, ignored);
-    if (target.empty()) output_error(path, ELOOP);
+    if (target.empty()) cannot_write(path, ELOOP);
     type = fs::status(target, ignored).type();
   }
-  if (type == fs::file_type::directory) output_error(path, EISDIR);
+  if (type == fs::file_type::directory) cannot_write(path, EISDIR);
   if (type != fs::file_type::regular && fs::exists(fs::file_status(type)) &&
       type != fs::file_type::unknown)
     throw Error(ExitCode::kOutput, "{}: cannot write: not a regular file", path.string());
@@ -179,7 +175,7 @@ PartFile::PartFile(const fs::path& path, AtLink at_link)
         for (int tries = 1;; ++tries) {
           const fs::path part = part_path(target_);
           file_ = Descriptor(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-          if (!file_) output_error(path, errno);
+          if (!file_) cannot_write(path, errno);
           ::flock(file_.get(), LOCK_EX);  // the lock tells others that it is not abandoned
           errno = ESTALE;
           if (is_at(part, file_.get())) return part;
@@ -187,7 +183,7 @@ PartFile::PartFile(const fs::path& path, AtLink at_link)
           const int error = errno;
           file_.close();
           remove_part(part);
-          if (tries == kMostTries) output_error(path, error);
+          if (tries == kMostTries) cannot_write(path, error);
         }
       }) {}
 
@@ -200,7 +196,7 @@ PartFile::~PartFile() {
 void PartFile::fail(int error) {
   file_.close();
   remove_part(part_.path());
-  output_error(path_, error);
+  cannot_write(path_, error);
 }
 
 void PartFile::append(std::span<const std::uint8_t> bytes) {
@@ -298,7 +294,7 @@ void FilesTogether::commit() {
   throw_if_interrupted();
   for (PartFile& file : finished_) {
     if (::rename(file.part_.path().c_str(), file.target_.c_str()) != 0)
-      output_error(file.path_, errno);
+      cannot_write(file.path_, errno);
     file.close();
     file.part_.forget();
   }
@@ -319,7 +315,7 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 }
 
 void require_writable(const fs::path& path) {
-  if (path.filename().empty()) output_error(path, EISDIR);
+  if (path.filename().empty()) cannot_write(path, EISDIR);
   const fs::path target = final_target(path, AtLink::kFollow);
   remove_abandoned_parts(HeldDirectory(target.parent_path()), {target.filename().string()});
   const fs::path part = part_path(target);
@@ -333,7 +329,7 @@ void require_writable(const fs::path& path) {
     return;
   const EndDelay delay;
   const Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!file) output_error(path, errno);
+  if (!file) cannot_write(path, errno);
   remove_part(part);
 }
 
@@ -364,12 +360,12 @@ TemporaryDirectory::TemporaryDirectory(const fs::path& parent)
     : path_([&] {
         while (true) {
           std::string name = (parent / kTemporaryName).string() + "XXXXXX";
-          if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
+          if (::mkdtemp(name.data()) == nullptr) cannot_write(name, errno);
           lock_ = Descriptor(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
           if (!lock_ && errno != ENOENT) {
             const int number = errno;
             remove_temporary(name);
-            output_error(name, number);
+            cannot_write(name, number);
           }
           if (lock_) ::flock(lock_.get(), LOCK_EX);
           if (lock_ && is_at(name, lock_.get())) return fs::path(name);

@@ -38,10 +38,6 @@ bool syncfs_is_enough(int directory) {
          (status.f_type == EXT4_SUPER_MAGIC || status.f_type == kXfs);
 }
 
-[[noreturn]] void flush_error(const fs::path& path, int error) {
-  throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
-}
-
 }  // namespace
 
 GroupFlush::GroupFlush(const std::vector<fs::path>& directories,
@@ -125,7 +121,7 @@ void GroupFlush::flush(const std::vector<Added>& group) const {
     for (const fs::path& path : one.files) {
       const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
       // One that was removed meanwhile is missed by its `then`.
-      if (file ? ::fsync(file.get()) != 0 : errno != ENOENT) flush_error(path, errno);
+      if (file ? ::fsync(file.get()) != 0 : errno != ENOENT) cannot_write(path, errno);
     }
 }
 

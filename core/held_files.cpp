@@ -14,23 +14,19 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void cannot_change(const fs::path& path, int error) {
-  throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
-}
-
 class NewFile {
  public:
   NewFile(const HeldDirectory& directory, const std::string& name, mode_t mode)
       : path_(directory.path() / name),
         file_(::openat(directory.fd(), name.c_str(),
                        O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, mode)) {
-    if (!file_) cannot_change(path_, errno);
+    if (!file_) cannot_write(path_, errno);
   }
 
   void append(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t n = retried([&] { return ::write(file_.get(), bytes.data(), bytes.size()); });
-      if (n < 0) cannot_change(path_, errno);
+      if (n < 0) cannot_write(path_, errno);
       bytes.remove_prefix(std::size_t(n));
     }
   }
@@ -40,13 +36,13 @@ class NewFile {
     mode_t mode = rights.st_mode & 0777u;  // new bytes are not run as somebody else
     if (::fchown(file_.get(), uid_t(-1), rights.st_gid) != 0)
       mode = (mode & 0707u) | ((mode & 07u) << 3);
-    if (::fchmod(file_.get(), mode) != 0) cannot_change(path_, errno);
+    if (::fchmod(file_.get(), mode) != 0) cannot_write(path_, errno);
   }
 
   void finish() {
     // Without fsync a full disk may be noticed only after the rename.
-    if (::fsync(file_.get()) != 0 && errno != EINVAL) cannot_change(path_, errno);
-    if (::close(file_.release()) != 0) cannot_change(path_, errno);
+    if (::fsync(file_.get()) != 0 && errno != EINVAL) cannot_write(path_, errno);
+    if (::close(file_.release()) != 0) cannot_write(path_, errno);
   }
 
  private:
@@ -73,7 +69,7 @@ std::optional<FileStatus> status_behind(const fs::path& path) {
 std::optional<FileStatus> status_in(const HeldDirectory& directory, const std::string& name) {
   FileStatus status{};
   if (::fstatat(directory.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return status;
-  if (errno != ENOENT) cannot_change(directory.path() / name, errno);
+  if (errno != ENOENT) cannot_write(directory.path() / name, errno);
   return std::nullopt;
 }
 
@@ -103,7 +99,7 @@ HeldDirectory make_in(const HeldDirectory& root, const fs::path& relative) {
 void move_file(const HeldDirectory& from, const std::string& name, const HeldDirectory& to,
                const std::string& new_name) {
   if (::renameat(from.fd(), name.c_str(), to.fd(), new_name.c_str()) != 0)
-    cannot_change(to.path() / new_name, errno);
+    cannot_write(to.path() / new_name, errno);
 }
 
 bool link_file(const HeldDirectory& from, const std::string& name, const HeldDirectory& to,
@@ -112,7 +108,7 @@ bool link_file(const HeldDirectory& from, const std::string& name, const HeldDir
 }
 
 void flush_names(const HeldDirectory& directory) {
-  if (::fsync(directory.fd()) != 0 && errno != EINVAL) cannot_change(directory.path(), errno);
+  if (::fsync(directory.fd()) != 0 && errno != EINVAL) cannot_write(directory.path(), errno);
 }
 
 void write_in(const HeldDirectory& directory, const std::string& name, std::string_view text) {

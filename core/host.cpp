@@ -1,5 +1,6 @@
 #include "core/host.hpp"
 
+#include <dlfcn.h>
 #include <elf.h>
 #include <fmt/format.h>
 #include <link.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/no_resources.hpp"
 #include "core/sha256.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -44,27 +47,17 @@ std::uint64_t resident(pid_t process) {
 
 std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
-/// Whether the object has this code.
-bool has_this_code(const dl_phdr_info& object) {
-  const auto here = reinterpret_cast<ElfW(Addr)>(&has_this_code);
-  for (int i = 0; i < object.dlpi_phnum; ++i) {
-    const auto& part = object.dlpi_phdr[i];
-    if (part.p_type == PT_LOAD && here - (object.dlpi_addr + part.p_vaddr) < part.p_memsz)
-      return true;
-  }
-  return false;
-}
-
-/// Takes the name of the object with this code. It is empty for the program.
-int take_own_name(dl_phdr_info* object, std::size_t, void* result) {
-  if (!has_this_code(*object)) return 0;
-  *static_cast<std::string*>(result) = object->dlpi_name;
-  return 1;
+/// The program or library with this code. The program has no name.
+const link_map& own_object() {
+  Dl_info unused;
+  void* object = nullptr;
+  ::dladdr1(reinterpret_cast<const void*>(&own_object), &unused, &object, RTLD_DL_LINKMAP);
+  return *static_cast<const link_map*>(object);
 }
 
 /// Reads the build ID of the object with this code.
 int take_build_id(dl_phdr_info* object, std::size_t, void* result) {
-  if (!has_this_code(*object)) return 0;
+  if (object->dlpi_addr != own_object().l_addr) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& part = object->dlpi_phdr[i];
     if (part.p_type != PT_NOTE) continue;
@@ -117,8 +110,7 @@ fs::path program_file() {
 
 fs::path own_file() {
   static const fs::path file = [] {
-    std::string library;
-    ::dl_iterate_phdr(take_own_name, &library);
+    const std::string library = own_object().l_name;
     if (library.empty()) return program_file();
     std::error_code error;
     fs::path found = fs::canonical(library, error);
@@ -145,6 +137,18 @@ std::string host_name() {
 bool proc_has_our_numbers() {
   std::error_code ignored;
   return fs::read_symlink("/proc/self", ignored) == std::to_string(::getpid());
+}
+
+ProcessStat stat_of_process(const std::string& process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  const std::string text(std::istreambuf_iterator<char>(file), {});  // "123 (name) S 1 ..."
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == text.npos) return {};
+  constexpr std::size_t kStart = 19;  // counted from the state
+  const std::vector<std::string> fields = split(text.substr(name_end + 1), " ");
+  long long start = 0;
+  if (fields.size() <= kStart || !parse_integer(fields[kStart], start)) return {};
+  return {fields[0][0], std::uint64_t(start)};
 }
 
 std::uint64_t peak_memory_of(pid_t process) {

@@ -19,6 +19,16 @@ std::string host_name();
 /// Whether /proc has our process IDs: not in a PID namespace without a /proc of its own.
 bool proc_has_our_numbers();
 
+/// What /proc/PID/stat tells of a process.
+struct ProcessStat {
+  char state = 0;           ///< 'R', 'S', ...; 0: unknown
+  std::uint64_t start = 0;  ///< in ticks since the machine was started
+  /// Killed, and its parent does not ask for it, as in a container without an init.
+  bool has_ended() const { return state == 'Z' || state == 'X'; }
+};
+/// `process` is a PID or "self".
+ProcessStat stat_of_process(const std::string& process);
+
 /// Bytes of memory that this machine has.
 std::uint64_t memory_of_machine();
 

@@ -71,6 +71,10 @@ Error failure_of(const std::string& what, int error, ExitCode otherwise) {
       .set_fault(!tells_of_file(error));
 }
 
+void cannot_write(const std::filesystem::path& path, int error) {
+  throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
+}
+
 Error failure_of(const std::string& what, const std::exception& error, ExitCode otherwise) {
   return failure_of(what, lacking(error), error.what(), otherwise);
 }

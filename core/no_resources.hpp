@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "core/error.hpp"
@@ -14,6 +15,9 @@ std::string lacking(int error);
 
 /// Error(ExitCode::kNoResources) if lacking(), else of `otherwise`: "WHAT: WHY".
 Error failure_of(const std::string& what, int error, ExitCode otherwise);
+
+/// Throws that of "PATH: cannot write" and kOutput.
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int error);
 
 /// The same for an exception of a library: std::bad_alloc, or a message about memory or threads.
 std::string lacking(const std::exception& error);

@@ -94,25 +94,13 @@ bool exchanges_axes(int orientation) { return orientation >= 5; }
 
 /// Where the stored pixel (x, y) of a picture of that stored size is shown.
 std::pair<int, int> shown_at(int x, int y, int width, int height, int orientation) {
-  const int right = width - 1 - x, below = height - 1 - y;
-  switch (orientation) {
-    case 2:
-      return {right, y};
-    case 3:
-      return {right, below};
-    case 4:
-      return {x, below};
-    case 5:
-      return {y, x};
-    case 6:
-      return {below, x};
-    case 7:
-      return {below, right};
-    case 8:
-      return {y, right};
-    default:
-      return {x, y};
-  }
+  // By orientation, from 1 on: what is mirrored before rows and columns are exchanged.
+  constexpr bool kMirrorsX[] = {false, true, true, false, false, false, true, true},
+                 kMirrorsY[] = {false, false, true, true, false, true, true, false};
+  const auto kind = std::size_t(orientation - kUpright);
+  if (kMirrorsX[kind]) x = width - 1 - x;
+  if (kMirrorsY[kind]) y = height - 1 - y;
+  return exchanges_axes(orientation) ? std::pair(y, x) : std::pair(x, y);
 }
 
 /// Where a window of a picture with that display window comes to lie.

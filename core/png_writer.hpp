@@ -1,10 +1,8 @@
 // Writes a PNG row by row, with memory for a few rows.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-
-#include "core/image.hpp"
+#include "core/files.hpp"
+#include "core/png_module.hpp"
 
 namespace lobelia {
 
@@ -12,18 +10,21 @@ namespace lobelia {
 class PngWriter {
  public:
   PngWriter(const std::filesystem::path& path, int width, int height,
-            const ImageMetadata& metadata = {});
-  ~PngWriter();
+            const ImageMetadata& metadata = {})
+      : encoder_(png_table().start(width, height, metadata)), file_(path) {}
 
   /// The next rows.
-  void write_rows(const DisplayImage& rows);
+  void write_rows(const DisplayImage& rows) { file_.append(encoder_->encode(rows)); }
 
   /// After the last row.
-  void finish();
+  void finish() {
+    file_.append(encoder_->finish());
+    file_.finish();
+  }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<PngEncoder> encoder_;
+  PartFile file_;
 };
 
 }  // namespace lobelia

@@ -16,10 +16,10 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <random>
 
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/no_resources.hpp"
 #include "core/text.hpp"
 
@@ -99,32 +99,16 @@ Removal removal_of_temporary(const fs::path& path) {
                                       }});
 }
 
-/// "PID (NAME) STATE ...", empty if it cannot be read. `process` is a PID or "self".
-std::string stat_of_process(const std::string& process) {
-  const Descriptor file(::open(("/proc/" + process + "/stat").c_str(), O_RDONLY | O_CLOEXEC));
-  std::string text(4096, '\0');
-  text.resize(file ? read_at(file.get(), text.data(), text.size()) : 0);
-  return text;
-}
-
 constexpr long long kEnded = -1;
 
 /// When a process began, in ticks of a clock modulo 2^31, which tells it from others that have had its PID. 0 if that cannot
-/// be told. kEnded for one that was killed and whose parent does not ask for it, as in a container without an init.
+/// be told. kEnded for one that was killed and whose parent does not ask for it.
 long long start_of_process(long long process) {
-  const std::string own = stat_of_process("self");
   const bool is_own = process == ::getpid();
   // A /proc of another PID namespace has other processes under our numbers.
-  if (!is_own && !own.starts_with(fmt::format("{} ", ::getpid()))) return 0;
-  const std::string text = is_own ? own : stat_of_process(std::to_string(process));
-  const std::size_t name_end = text.rfind(") ");
-  if (name_end == text.npos) return 0;
-  constexpr std::size_t kPlace = 20;  // counted from the state
-  const std::vector<std::string> fields = split(text.substr(name_end + 2), " ");
-  if (fields.front() == "Z" || fields.front() == "X") return kEnded;
-  long long start = 0;
-  const bool is_there = fields.size() >= kPlace && parse_integer(fields[kPlace - 1], start);
-  return is_there ? start & 0x7fffffff : 0;
+  if (!is_own && !proc_has_our_numbers()) return 0;
+  const ProcessStat there = stat_of_process(is_own ? "self" : std::to_string(process));
+  return there.has_ended() ? kEnded : (long long)(there.start & 0x7fffffff);
 }
 
 struct PartName {
@@ -164,9 +148,7 @@ HeldDirectory HeldDirectory::below(const std::string& name, Border border) const
   if (found) return found;
   found.error_ = errno;
   throw_if_lacking(found.path_, found.error_);
-  struct stat status {};
-  if (::fstatat(fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
-    found.error_ = ELOOP;
+  if (is_link(name)) found.error_ = ELOOP;
   return found;
 }
 
@@ -195,10 +177,13 @@ bool HeldDirectory::is_fault() const {
   return !open_ && error_ != ENOENT && error_ != ELOOP && error_ != ENOTDIR && error_ != EXDEV;
 }
 
-std::vector<std::string> HeldDirectory::names() const { return list(false); }
-std::vector<std::string> HeldDirectory::links() const { return list(true); }
+bool HeldDirectory::is_link(const std::string& name) const {
+  struct stat status {};
+  return ::fstatat(fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+         S_ISLNK(status.st_mode);
+}
 
-std::vector<std::string> HeldDirectory::list(bool links_only) const {
+std::vector<std::string> HeldDirectory::names() const {
   std::vector<std::string> found;
   if (!open_) return found;
   // Opened again, because descriptors of one open file share its position in the list.
@@ -208,17 +193,9 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
     throw_if_lacking(path_, errno);
     return found;
   }
-  const int listed = again.release();  // closedir() closes it
-  while (const dirent* entry = ::readdir(directory)) {
-    struct stat status {};
-    if (!is_entry_name(entry->d_name)) continue;
-    if (links_only && entry->d_type != DT_LNK &&
-        (entry->d_type != DT_UNKNOWN ||
-         ::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
-         !S_ISLNK(status.st_mode)))
-      continue;
-    found.emplace_back(entry->d_name);
-  }
+  again.release();  // closedir() closes it
+  while (const dirent* entry = ::readdir(directory))
+    if (is_entry_name(entry->d_name)) found.emplace_back(entry->d_name);
   ::closedir(directory);
   std::ranges::sort(found);
   return found;

@@ -39,15 +39,14 @@ class HeldDirectory {
   /// Whether the system could not open it: it is neither missing nor of another kind.
   bool is_fault() const;
 
-  std::vector<std::string> names() const;  ///< all entries, sorted
-  std::vector<std::string> links() const;  ///< the symbolic links among them
+  std::vector<std::string> names() const;       ///< all entries, sorted
+  bool is_link(const std::string& name) const;  ///< whether an entry is a symbolic link
   /// The text of a regular file; nothing if it is no such file, is over `max_bytes` or cannot be opened.
   std::optional<std::string> read(const std::string& name, std::uint64_t max_bytes) const;
   bool is_same_as(const HeldDirectory& other) const;
   HeldDirectory copy() const;
 
  private:
-  std::vector<std::string> list(bool links_only) const;
   Descriptor open_;
   int error_ = 0;
   std::filesystem::path path_;

@@ -16,7 +16,6 @@
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/replacement_gathering.hpp"
-#include "core/replacement_journal.hpp"
 #include "core/replacement_store.hpp"
 
 namespace lobelia {
@@ -65,7 +64,7 @@ class ReplacedFolder {
     try {
       std::vector<fs::path> directories;
       for (const Replacement& file : files) directories.push_back(file.to.parent_path());
-      gathered = gather(root_, make_next(root_, store_, directories), files);
+      gathered = Gathering(root_, make_next(root_, store_, directories)).gather(files);
       delay.emplace();
       throw_if_interrupted();
       move_file(store_, kNextStage, store_, kNowStage);

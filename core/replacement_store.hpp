@@ -1,15 +1,44 @@
-// The directory that a replacement of files needs in their folder (core/replacement.hpp).
+// The directory that a replacement of files needs in their folder (core/replacement.hpp), and the journal in it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/byte_locks.hpp"
 #include "core/removal.hpp"
-#include "core/replacement_journal.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
+
+struct ReplacementJournal {
+  struct Entry {
+    std::filesystem::path name;               ///< from the folder; is_inner_path()
+    Sha256Digest bytes{};                     ///< of the new file
+    std::optional<Sha256Digest> before = {};  ///< of the old one, if there was one
+  };
+  std::vector<Entry> entries;
+  /// Directories that were not there, each before what is in it.
+  std::vector<std::filesystem::path> made = {};
+  /// The inode of the directory that holds the journal. A copy, such as one that somebody sends, is in another directory.
+  std::uint64_t directory = 0;
+
+  std::string text() const;
+  /// Nothing if the text is damaged, or names anything outside of the folder.
+  static std::optional<ReplacementJournal> read(std::string_view text);
+};
+
+/// The files of entry i, beside the journal.
+std::string new_file_name(std::size_t i);
+std::string old_file_name(std::size_t i);
+
+/// Whether it leads to something in the folder, by names alone, and into no directory of ours.
+bool is_inner_path(const std::filesystem::path& path);
 
 /// Directories in it, each with a journal and the files of its entries.
 inline constexpr char kNextStage[] = "next", kNowStage[] = "now", kLastStage[] = "last",

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/timed_hash.hpp"
 
 namespace lobelia {
 namespace {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -22,6 +24,11 @@ inline constexpr std::uint64_t kMostHashedBytes = std::uint64_t{8} << 30;
 /// as read_in_pieces().
 Sha256Digest sha256_of_file(const std::filesystem::path& path);
 Sha256Digest sha256_of_file(const InputFile& file);
+
+/// No limit on the time of a hash.
+inline constexpr std::chrono::duration<double> kAnyTime{std::numeric_limits<double>::infinity()};
+/// Throws Error(kInput) also if that takes longer than `time_limit`, as for a large file on a slow disk.
+Sha256Digest sha256_of_file(const InputFile& file, std::chrono::duration<double> time_limit);
 
 /// 64 lower-case hexadecimal digits, and back. from_hex() returns false for any other text.
 std::string hex(const Sha256Digest& digest);

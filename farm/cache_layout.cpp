@@ -77,25 +77,6 @@ std::uint64_t pid_namespace() {
   return number;
 }
 
-struct ProcessState {
-  char state = 0;  ///< 0: unknown
-  std::uint64_t start = 0;
-};
-
-ProcessState process_state(const std::string& pid) {
-  const std::string line = first_line("/proc/" + pid + "/stat");  // "123 (name) S 1 ..."
-  const auto close = line.rfind(')');
-  if (close == line.npos) return {};
-  const auto fields = split(line.substr(close + 1), " ");
-  constexpr std::size_t kStart = 19;  // the 22nd of all
-  ProcessState state;
-  if (fields.size() <= kStart || fields[0].size() != 1) return {};
-  state.state = fields[0][0];
-  const std::string& start = fields[kStart];
-  std::from_chars(start.data(), start.data() + start.size(), state.start);
-  return state;
-}
-
 /// Decimal digits without a sign or zeros before them.
 bool parse_number_part(std::string_view text, std::uint64_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -107,7 +88,7 @@ bool parse_number_part(std::string_view text, std::uint64_t& value) {
 
 ProcessIdentity this_process() {
   return {host_part(), boot_part(), pid_namespace(), std::uint64_t(::getpid()),
-          process_state("self").start};
+          stat_of_process("self").start};
 }
 
 std::string DraftName::text() const {
@@ -143,11 +124,10 @@ Life life_of(const ProcessIdentity& maker, const ProcessIdentity& self) {
   if (maker.boot != self.boot) return maker.host == self.host ? Life::kDead : Life::kUnknown;
   if (maker.pid_namespace != self.pid_namespace || !proc_has_our_numbers()) return Life::kUnknown;
   if (::kill(pid_t(maker.pid), 0) != 0 && errno == ESRCH) return Life::kDead;
-  const ProcessState there = process_state(std::to_string(maker.pid));
+  const ProcessStat there = stat_of_process(std::to_string(maker.pid));
   if (there.state == 0) return Life::kAlive;  // another user's process, which the system hides
   // A zombie does no work; if process 1 reaps late there are many.
-  const bool ended = there.state == 'Z' || there.state == 'X';
-  return ended || there.start != maker.start ? Life::kDead : Life::kAlive;
+  return there.has_ended() || there.start != maker.start ? Life::kDead : Life::kAlive;
 }
 
 bool is_cache_shelf(std::string_view name) { return name.size() == 2 && is_hex(name); }
@@ -203,12 +183,12 @@ HeldDirectory open_cache(const fs::path& directory, ByteLocks::Opening opening) 
     // Fails in a read-only cache, which stays as it is.
     if (opening == ByteLocks::Opening::kMake) ::mkdirat(root.fd(), part, 0777);
     const HeldDirectory there = root.below(part);
-    const auto links = there.links();
-    if ((there && links.empty()) || there.is_missing()) continue;
-    throw Error(ExitCode::kOutput,
-                there ? fmt::format("{}: a symbolic link, which a cache has none of",
-                                    (there.path() / links.front()).string())
-                      : fmt::format("{}: {}", there.path().string(), there.why_not()));
+    if (!there && !there.is_missing())
+      throw Error(ExitCode::kOutput, "{}: {}", there.path().string(), there.why_not());
+    for (const std::string& name : there.names())
+      if (there.is_link(name))
+        throw Error(ExitCode::kOutput, "{}: a symbolic link, which a cache has none of",
+                    (there.path() / name).string());
   }
   return root;
 }

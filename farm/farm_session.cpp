@@ -55,8 +55,8 @@ const fs::path& made(const fs::path& directory, const FarmOptions& options) {
   }
   make_directories(directory);
   const HeldDirectory held(directory);
-  for (const std::string& link : held.links())
-    if (link == "cells" || link == "farm.json")
+  for (const char* link : {"cells", "farm.json"})
+    if (held.is_link(link))
       throw Error(ExitCode::kOutput, "{}: a symbolic link, which is not followed",
                   (directory / link).string());
   return directory;

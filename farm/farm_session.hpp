@@ -14,8 +14,6 @@ struct FarmWork {
   FarmWork(const Grid& g, const FarmOptions& options, const std::filesystem::path& directory = {});
   FarmWork(const FarmWork&) = delete;
   std::vector<std::string> absences() const;  ///< a sentence for each absent engine
-  std::vector<std::string> refusals()
-      const;  ///< likewise for each engine that cannot show some cells
   /// The jobs that the options ask for and that can be made here.
   JobStateFilter filter(const FarmOptions& options) const;
   /// A sentence if the filter picks none of the jobs; otherwise empty.

@@ -1,37 +1,18 @@
 #include "farm/job.hpp"
 
+#include <fnmatch.h>
+
+#include <algorithm>
+
+#include "core/text.hpp"
+
 namespace lobelia {
 namespace {
 
-/// '*' is any text, '?' any one character. Linear time for each '*'.
-bool matches(std::string_view pattern, std::string_view name) {
-  std::size_t p = 0, n = 0, star = pattern.npos, after = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') {
-      ++p;
-      ++n;
-    } else if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      after = n;
-    } else if (star != pattern.npos) {
-      p = star + 1;
-      n = ++after;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
-
-bool matches_any(std::string_view patterns, std::string_view name) {
-  while (true) {
-    const auto colon = patterns.find(':');
-    const std::string_view pattern = patterns.substr(0, colon);
-    if (!pattern.empty() && matches(pattern, name)) return true;
-    if (colon == patterns.npos) return false;
-    patterns.remove_prefix(colon + 1);
-  }
+bool matches_any(std::string_view patterns, const std::string& name) {
+  return std::ranges::any_of(split(patterns, ":"), [&](const std::string& pattern) {
+    return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  });
 }
 
 }  // namespace
@@ -42,7 +23,7 @@ std::string job_name(JobKind kind, std::string_view engine) {
   return name;
 }
 
-bool JobFilter::picks(std::string_view name) const {
+bool JobFilter::picks(const std::string& name) const {
   const std::string_view text = text_;
   // Names contain '-': the excluded patterns begin at the start or after a ':'.
   std::size_t minus = text.starts_with('-') ? 0 : text.find(":-");

@@ -65,12 +65,13 @@ struct Job {
 /// "compare-povray"
 std::string job_name(JobKind kind, std::string_view engine);
 
-/// GoogleTest's patterns: "a*:b?c-d*" matches names like a* or b?c, except d*. An empty list before '-' is everything.
+/// GoogleTest's patterns, each as fnmatch(3) has it: "a*:b?c-d*" matches names like a* or b?c, except d*. An empty list
+/// before '-' is everything.
 class JobFilter {
  public:
   JobFilter() = default;
   explicit JobFilter(std::string_view patterns) : text_(patterns) {}
-  bool picks(std::string_view name) const;
+  bool picks(const std::string& name) const;
   bool picks_everything() const { return text_.empty(); }
   const std::string& text() const { return text_; }
 

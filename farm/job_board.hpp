@@ -1,15 +1,18 @@
-// The jobs of a run: the board knows which can begin and which are done; the maker makes results. Both for any thread.
+// The jobs of a run: which can begin and which are done. For any thread.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <map>
+#include <mutex>
 #include <queue>
 
-#include "core/group_flush.hpp"
-#include "farm/failed_jobs.hpp"
+#include "core/interrupt.hpp"
 #include "farm/job_run.hpp"
-#include "farm/make_result.hpp"
 
 namespace lobelia {
 
@@ -27,30 +30,121 @@ class JobBoard {
       : graph_(graph), options_(options), on_cell_(std::move(on_cell)), states_(states) {}
 
   /// Takes all waiting jobs, cells in this order. Returns the jobs of each engine that is a program.
-  std::vector<std::vector<JobIndex>> plan(const std::vector<std::size_t>& order);
+  std::vector<std::vector<JobIndex>> plan(const std::vector<std::size_t>& order) {
+    const std::scoped_lock lock(mutex_);
+    rank_.assign(graph_.cell_count(), 0);
+    std::vector<std::vector<JobIndex>> of_engine(graph_.engines().size());
+    for (std::size_t place = 0; place < order.size(); ++place) {
+      const std::size_t cell = order[place];
+      rank_[cell] = std::uint32_t(place);
+      for (const JobIndex job : graph_.jobs(cell)) {
+        if (states_[job] != JobState::kWaiting) continue;
+        ++waiting_in_cell_[cell];
+        ++planned_;
+        ++stage_of(job).count;
+        if (!is_made_here(job)) {
+          of_engine[graph_[job].engine].push_back(job);
+          continue;
+        }
+        ++left_here_;
+        if (inputs_are_settled(job)) make_ready(job);
+      }
+    }
+    return of_engine;
+  }
   std::size_t planned() const { return planned_; }
 
-  JobState state(JobIndex job) const;
+  JobState state(JobIndex job) const {
+    const std::scoped_lock lock(mutex_);
+    return states_[job];
+  }
   /// Whether a thread of this process makes the result.
-  bool is_made_here(JobIndex job) const;
+  bool is_made_here(JobIndex job) const {
+    const Job& one = graph_[job];
+    return one.kind != JobKind::kReference ||
+           !graph_.engines()[one.engine].engine->info().is_program;
+  }
   /// Waits for a job that is made here and can begin, and finishes cells meanwhile; empty once there will be no more.
-  std::optional<JobIndex> next();
+  std::optional<JobIndex> next() {
+    std::unique_lock lock(mutex_);
+    while (!is_over_locked() && left_here_ > 0) {
+      for (const auto now = Clock::now(); !put_back_.empty() && put_back_.front().first <= now;
+           put_back_.pop_front())
+        make_ready(put_back_.front().second);
+      if (!finished_cells_.empty()) {
+        lock.unlock();
+        finish_cells();
+        lock.lock();
+        continue;
+      }
+      if (!ready_.empty()) {
+        const JobIndex job = ready_.top().job;
+        ready_.pop();
+        return job;
+      }
+      changed_.wait_for(lock, kLookAgain);
+    }
+    return std::nullopt;
+  }
   /// Another process is making it: next() gives it again later.
-  void put_back(JobIndex job);
+  void put_back(JobIndex job) {
+    const std::scoped_lock lock(mutex_);
+    put_back_.emplace_back(Clock::now() + kLookAgain, job);
+  }
   /// Jobs that depend on it can begin, or become kBlocked or kAbsent.
-  void settle(JobIndex job, JobState state);
+  void settle(JobIndex job, JobState state) {
+    const std::scoped_lock lock(mutex_);
+    settle_locked(job, state);
+  }
   /// Calls `on_cell` for cells with nothing left to wait for.
-  void finish_cells();
+  void finish_cells() {
+    while (true) {
+      std::size_t cell = 0;
+      {
+        const std::scoped_lock lock(mutex_);
+        if (finished_cells_.empty()) return;
+        cell = finished_cells_.front();
+        finished_cells_.pop_front();
+      }
+      on_cell_(cell);
+    }
+  }
 
-  void stop();                               ///< ends the run early
-  void break_off(std::exception_ptr error);  ///< likewise; end() throws the first such error
-  bool is_over() const;
+  /// ends the run early
+  void stop() {
+    const std::scoped_lock lock(mutex_);
+    stopped_ = true;
+  }
+  /// likewise; end() throws the first such error
+  void break_off(std::exception_ptr error) {
+    const std::scoped_lock lock(mutex_);
+    if (!broken_) broken_ = std::move(error);
+    changed_.notify_all();
+  }
+  bool is_over() const {
+    const std::scoped_lock lock(mutex_);
+    return is_over_locked();
+  }
   /// After the last job: finishes the cells with the failure that ended the run.
-  void finish_failed_cells();
+  void finish_failed_cells() {
+    if (broken_ || interrupted()) return;
+    for (const auto& [cell, waiting] : waiting_in_cell_)
+      if (waiting > 0 && std::ranges::any_of(graph_.jobs(cell), [&](JobIndex job) {
+            return states_[job] == JobState::kFailed;
+          }))
+        finished_cells_.push_back(cell);
+    finish_cells();
+  }
   /// Throws the error that broke the run.
-  void end() const;
+  void end() const {
+    if (broken_) std::rethrow_exception(broken_);
+    throw_if_interrupted();
+  }
 
-  void count(const std::function<void(JobRunWork&)>& change);
+  void count(const std::function<void(JobRunWork&)>& change) {
+    const std::scoped_lock lock(mutex_);
+    change(work_);
+  }
   const JobRunWork& work() const { return work_; }
 
  private:
@@ -65,12 +159,56 @@ class JobBoard {
   };
   using Clock = std::chrono::steady_clock;
 
-  bool is_over_locked() const;
-  bool inputs_are_settled(JobIndex job) const;
-  void make_ready(JobIndex job);
-  void settle_locked(JobIndex job, JobState state);
-  Stage& stage_of(JobIndex job);
-  void show_progress();
+  bool is_over_locked() const { return broken_ || stopped_ || interrupted(); }
+  bool inputs_are_settled(JobIndex job) const {
+    return std::ranges::all_of(graph_.inputs(job), [&](JobIndex input) {
+      return states_[input] == JobState::kDone ||
+             (graph_.may_lack(job, input) && states_[input] == JobState::kFailed);
+    });
+  }
+  void make_ready(JobIndex job) {
+    // Comparisons and profiles first: they finish cells, and few are ready at a time.
+    const int urgency = is_picture(graph_[job].kind) ? 1 : 0;
+    ready_.push({{urgency, rank_[graph_.cell_of(job)]}, job});
+  }
+  void settle_locked(JobIndex job, JobState state) {
+    states_[job] = state;
+    if (is_made_here(job)) --left_here_;
+    ++settled_;
+    ++stage_of(job).done;
+    show_progress();
+    for (const JobIndex next : graph_.dependents(job)) {
+      if (states_[next] != JobState::kWaiting) continue;
+      // A picture that was lost is made again, so nothing is made without it.
+      const bool can_be_lacking = state == JobState::kFailed && graph_.may_lack(next, job);
+      if (state == JobState::kAbsent)
+        settle_locked(next, state);
+      else if (state != JobState::kDone && !can_be_lacking)
+        settle_locked(next, JobState::kBlocked);
+      else if (inputs_are_settled(next))
+        make_ready(next);
+    }
+    const std::size_t cell = graph_.cell_of(job);
+    if (--waiting_in_cell_[cell] == 0) finished_cells_.push_back(cell);
+    changed_.notify_all();
+  }
+  Stage& stage_of(JobIndex job) {
+    const Job& one = graph_[job];
+    const std::string name = one.kind == JobKind::kReference ? graph_.engines()[one.engine].name
+                             : one.kind == JobKind::kRender  ? kOurs
+                                                             : kJobKindNames[int(one.kind)].data();
+    const auto found = std::ranges::find(stages_, name, &Stage::name);
+    return found == stages_.end() ? stages_.emplace_back(Stage{name}) : *found;
+  }
+  void show_progress() {
+    if (!options_.on_progress) return;
+    FarmProgress progress{settled_, planned_, ""};
+    for (const Stage& stage : stages_)
+      if (stage.done < stage.count)
+        progress.running += fmt::format("{}{} {}/{}", progress.running.empty() ? "" : ", ",
+                                        stage.name, stage.done, stage.count);
+    options_.on_progress(progress);
+  }
 
   const JobGraph& graph_;
   const JobRunOptions& options_;
@@ -90,81 +228,6 @@ class JobBoard {
   std::size_t settled_ = 0, planned_ = 0;
   std::exception_ptr broken_;
   bool stopped_ = false;
-};
-
-struct JobFailure {
-  FailureClass kind = FailureClass::kNone;
-  std::string message;  ///< empty: it has not failed
-  int attempts = 0;
-};
-
-class JobMaker {
- public:
-  JobMaker(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options, JobBoard& board,
-           GroupFlush& flush)
-      : graph_(graph),
-        cache_(cache),
-        options_(options),
-        board_(board),
-        flush_(flush),
-        failed_(options.failed_directory) {}
-
-  /// The right to make a result, among all processes and the threads of this one: two cells may have the same scene.
-  class Claim {
-   public:
-    Claim(JobMaker& maker, const ResultKey& key) : maker_(maker), key_(key) {}
-    ~Claim();
-    Claim(const Claim&) = delete;
-    Claim& operator=(const Claim&) = delete;
-
-   private:
-    friend class JobMaker;
-    JobMaker& maker_;
-    ResultKey key_;
-    std::optional<ByteLocks::Claim> lock_;
-  };
-  /// Null while another process or thread has it.
-  std::unique_ptr<Claim> claim(JobIndex job);
-  /// Settles the job if its result has been made since the farm looked.
-  bool is_there(JobIndex job);
-
-  /// Makes the result in this process; false while another process or thread makes it. The job is settled once its
-  /// files are on the disk.
-  bool make_here(JobIndex job);
-  /// Likewise for an engine's picture, whose claim it takes. Throws ResultFailure if it is not a valid one.
-  void keep_reference(JobIndex job, const Scene& scene, ReferenceResult result, int attempt,
-                      double wall_seconds, std::unique_ptr<Claim>& claim);
-  void fail(JobIndex job, JobFailure failure, const std::string& log = {});
-
- private:
-  using Hashes = records::Named<std::string>;
-  const std::string& cell_id(JobIndex job) const {
-    return graph_.cells().cells[graph_.cell_of(job)].id;
-  }
-  void settle_done(JobIndex job);
-  void settle_lost(JobIndex job);
-  std::string keep_input(JobIndex job, const std::string& log);
-  records::Result result_record(JobIndex job, int attempts) const;
-  MadePicture input_picture(JobIndex job, Hashes& from) const;
-  bool discard_unreadable_inputs(JobIndex job) const;
-  void make(JobIndex job, ResultDraft& draft, records::Result& record) const;
-  struct Made {
-    std::unique_ptr<Claim> claim;
-    ResultDraft draft;
-    records::Result record;
-  };
-  void publish(JobIndex job, std::unique_ptr<Claim>& claim, ResultDraft& draft,
-               records::Result record);
-  void place(JobIndex job, Made& made);
-
-  JobGraph& graph_;
-  const ResultCache& cache_;
-  const JobRunOptions& options_;
-  JobBoard& board_;
-  GroupFlush& flush_;
-  FailedJobs failed_;
-  std::mutex mutex_;
-  std::set<ResultKey> claimed_;  ///< by threads of this process
 };
 
 }  // namespace lobelia

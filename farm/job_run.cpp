@@ -12,7 +12,7 @@
 #include "core/no_resources.hpp"
 #include "core/numbers.hpp"
 #include "core/threads.hpp"
-#include "farm/job_board.hpp"
+#include "farm/job_maker.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {

@@ -201,17 +201,22 @@ void add_lobes(py::module_& module) {
     return records::record_text(catalogue_record(checked_exponent(exponent)));
   });
   py::class_<LobeId>(module, "Lobe")
-      .def(py::init(&lobe_of))
-      .def_property_readonly("name", [](const LobeId& lobe) { return info(lobe).name; })
-      .def_property_readonly("title", [](const LobeId& lobe) { return info(lobe).title; })
-      .def_property_readonly("formula", [](const LobeId& lobe) { return info(lobe).formula; })
-      .def_property_readonly("source", [](const LobeId& lobe) { return info(lobe).source; })
-      .def("value32", &value32)
-      .def("value64", [](const LobeId& lobe, const Doubles& n,
-                         const Doubles& s) { return lobe64(lobe, n, s, LobeFunction::kValue); })
-      .def("sample", [](const LobeId& lobe, const Doubles& n,
-                        const Doubles& u) { return lobe64(lobe, n, u, LobeFunction::kSample); })
-      .def("density", [](const LobeId& lobe, const Doubles& n, const Doubles& s) {
+      .def(py::init(&lobe_of), py::arg("name"), py::arg("formula") = "")
+      .def_property_readonly(
+          "name", [](const LobeId& lobe) { return info(lobe).name; },
+          "As in scene files: \"cs16\".")
+      .def_property_readonly(
+          "title", [](const LobeId& lobe) { return info(lobe).title; }, "For people.")
+      .def_property_readonly(
+          "formula", [](const LobeId& lobe) { return info(lobe).formula; }, "In s and n, as text.")
+      .def_property_readonly(
+          "source", [](const LobeId& lobe) { return info(lobe).source; }, "Where it is from.")
+      .def("_value32", &value32)
+      .def("_value64", [](const LobeId& lobe, const Doubles& n,
+                          const Doubles& s) { return lobe64(lobe, n, s, LobeFunction::kValue); })
+      .def("_sample", [](const LobeId& lobe, const Doubles& n,
+                         const Doubles& u) { return lobe64(lobe, n, u, LobeFunction::kSample); })
+      .def("_density", [](const LobeId& lobe, const Doubles& n, const Doubles& s) {
         return lobe64(lobe, n, s, LobeFunction::kDensity);
       });
   py::class_<Highlight>(module, "Highlight")

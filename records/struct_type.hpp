@@ -105,7 +105,6 @@ class Struct final : public Type {
 
   Json write(const void* value) const override;
   void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const override;
-  bool is_empty(const void*) const override { return false; }
   Json schema(const Bounds& bounds) const override;
   std::string typescript(const Bounds& bounds) const override;
   void define(Definitions& definitions) const override { definitions.add(*this); }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -49,10 +48,8 @@ class BoolType final : public Type {
     if (!json.is_boolean()) place.fail("not true or false");
     *static_cast<bool*>(value) = json.get<bool>();
   }
-  bool is_empty(const void*) const override { return false; }
   Json schema(const Bounds&) const override { return {{"type", "boolean"}}; }
   std::string typescript(const Bounds&) const override { return "boolean"; }
-  void define(Definitions&) const override {}
 };
 
 class StringType final : public Type {
@@ -90,7 +87,6 @@ class StringType final : public Type {
       text += fmt::format("{}\"{}\"", text.empty() ? "" : " | ", one);
     return text;
   }
-  void define(Definitions&) const override {}
 };
 
 class DoubleType final : public Type {
@@ -114,7 +110,6 @@ class DoubleType final : public Type {
     }
     require_within(number, bounds, place);
   }
-  bool is_empty(const void*) const override { return false; }
   Json schema(const Bounds& bounds) const override {
     Json number{{"type", "number"}};
     add_bounds(bounds, number);
@@ -124,7 +119,6 @@ class DoubleType final : public Type {
   std::string typescript(const Bounds& bounds) const override {
     return bounds.nonfinite ? "number | \"nan\" | \"inf\" | \"-inf\"" : "number";
   }
-  void define(Definitions&) const override {}
 };
 
 template <class T>
@@ -144,7 +138,6 @@ class IntegerType final : public Type {
                               : json.is_number_integer() ? T(json.get<std::int64_t>())
                                                          : T(number);
   }
-  bool is_empty(const void*) const override { return false; }
   Json schema(const Bounds& bounds) const override {
     Json schema{{"type", "integer"}};
     Bounds own = bounds;
@@ -153,7 +146,6 @@ class IntegerType final : public Type {
     return schema;
   }
   std::string typescript(const Bounds&) const override { return "number"; }
-  void define(Definitions&) const override {}
 
   static constexpr T kLeast = std::numeric_limits<T>::min();
   static constexpr double kBeyond = 2.0 * double(std::numeric_limits<T>::max() / 2 + 1);
@@ -199,27 +191,15 @@ void Definitions::add(const Struct& type) {
 
 namespace detail {
 
-const Type& bool_type() {
-  static const BoolType type;
-  return type;
-}
-const Type& string_type() {
-  static const StringType type;
-  return type;
-}
-const Type& double_type() {
-  static const DoubleType type;
-  return type;
-}
+const Type& bool_type() { return only_one<BoolType>(); }
+const Type& string_type() { return only_one<StringType>(); }
+const Type& double_type() { return only_one<DoubleType>(); }
 const Type& integer_type(std::size_t size, bool is_signed) {
-  static const IntegerType<std::int32_t> int32;
-  static const IntegerType<std::int64_t> int64;
-  static const IntegerType<std::uint32_t> uint32;
-  static const IntegerType<std::uint64_t> uint64;
-  static const IntegerType<std::uint8_t> uint8;
-  if (size == 1) return uint8;
-  if (size == 4) return is_signed ? static_cast<const Type&>(int32) : uint32;
-  return is_signed ? static_cast<const Type&>(int64) : uint64;
+  if (size == 1) return only_one<IntegerType<std::uint8_t>>();
+  if (size == 4)
+    return is_signed ? only_one<IntegerType<std::int32_t>>()
+                     : only_one<IntegerType<std::uint32_t>>();
+  return is_signed ? only_one<IntegerType<std::int64_t>>() : only_one<IntegerType<std::uint64_t>>();
 }
 
 Json ListType::write(const void* value) const {

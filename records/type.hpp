@@ -87,12 +87,12 @@ class Type {
   virtual void read(const Json& json, const Bounds& bounds, const Place& place,
                     void* value) const = 0;
   /// Whether it is an optional without a value, or an empty list or text.
-  virtual bool is_empty(const void* value) const = 0;
+  virtual bool is_empty(const void*) const { return false; }
   /// Whether an empty item of a list is written as null.
   virtual bool may_be_null() const { return false; }
   virtual Json schema(const Bounds& bounds) const = 0;
   virtual std::string typescript(const Bounds& bounds) const = 0;
-  virtual void define(Definitions& definitions) const = 0;
+  virtual void define(Definitions&) const {}
 };
 
 /// The type of T: bool, integers, double, std::string, std::array, std::vector, Named, std::optional and structs that have a

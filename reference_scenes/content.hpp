@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "core/timed_hash.hpp"
+#include "core/sha256.hpp"
 #include "records/result.hpp"
 #include "reference_scenes/engine.hpp"
 

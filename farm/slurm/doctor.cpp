@@ -172,20 +172,20 @@ class Doctor {
   bool partition() {
     const std::string name =
         options_.slurm.partition.empty() ? "default" : options_.slurm.partition;
-    const auto nodes = client_.nodes(options_.slurm.partition);
+    const auto nodes = client_.node_list(options_.slurm.partition);
     if (!nodes) return add("partition", CheckVerdict::kWarning, nodes.why);
     if (nodes->empty())
       return add("partition", CheckVerdict::kFailed, fmt::format("'{}': there is none", name),
                  "'sinfo -s' lists them; name one with --partition");
-    std::size_t usable = 0, all = 0, processors = 0;
-    for (const auto& group : *nodes) {
-      all += group.nodes;
-      if (!group.up || !group.usable) continue;
-      usable += group.nodes;
-      processors += group.processors;
+    std::size_t usable = 0, processors = 0;
+    for (const SlurmNode& node : *nodes) {
+      if (!node.usable) continue;
+      ++usable;
+      processors += node.processors;
     }
-    const std::string found = fmt::format("'{}': {} of {} nodes can run jobs, with {} processors",
-                                          nodes->front().partition, usable, all, processors);
+    const std::string found =
+        fmt::format("'{}': {} of {} nodes can run jobs, with {} processors",
+                    nodes->front().partition, usable, nodes->size(), processors);
     if (usable == 0)
       return add("partition", CheckVerdict::kFailed, found,
                  "'sinfo -R' says why; ask an administrator");

@@ -1,7 +1,6 @@
 #include "farm/slurm/slurm_answers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <initializer_list>
 
@@ -101,6 +100,18 @@ std::string partition_name(std::string_view field, bool& is_default) {
   is_default = field.ends_with('*');
   if (is_default) field.remove_suffix(1);
   return printable(field);
+}
+
+/// "1/3/0/4": allocated, idle, other, all. The first two count.
+std::optional<std::size_t> usable_processors(std::string_view text) {
+  const std::vector<std::string> parts = split(text, "/");
+  std::size_t usable = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto value = digits(parts[i]);
+    if (!value) return {};
+    if (i < 2) usable += std::min(*value, kMostTasks);
+  }
+  return parts.size() == 4 ? std::optional(usable) : std::nullopt;
 }
 
 /// "3", "3-9", "1-9:2"
@@ -218,41 +229,21 @@ std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std
   return jobs;
 }
 
-std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines) {
-  return parse_lines<SlurmNodes>(lines, 5, 0, [](const Fields& field, SlurmNodes& nodes) {
-    nodes.partition = partition_name(field[0], nodes.is_default);
-    nodes.up = field[1] == "up";
-    nodes.state = printable(field[2]);
-    nodes.usable = is_usable(field[2]);
-    std::array<std::size_t, 4> processors{};  // allocated, idle, other, total
-    std::string_view rest = field[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto slash = rest.find('/');
-      const auto value = digits(rest.substr(0, slash));
-      if (!value || (slash == rest.npos) != (i == 3)) return false;
-      processors[i] = *value;
-      rest.remove_prefix(slash == rest.npos ? rest.size() : slash + 1);
-    }
-    const auto count = digits(field[3]);
-    if (!count || nodes.partition.empty() || field[2].empty()) return false;
-    nodes.nodes = *count;
-    nodes.processors = std::min(processors[0], kMostTasks) + std::min(processors[1], kMostTasks);
-    return true;
-  });
-}
-
 std::optional<std::vector<SlurmNode>> parse_node_list(std::span<const std::string> lines) {
-  return parse_lines<SlurmNode>(lines, 5, 0, [](const Fields& field, SlurmNode& node) {
+  return parse_lines<SlurmNode>(lines, 6, 0, [](const Fields& field, SlurmNode& node) {
     std::string_view memory = field[4];
     if (memory.ends_with('+')) memory.remove_suffix(1);
-    const auto mebibytes = digits(memory);
+    const auto mebibytes = digits(memory), processors = usable_processors(field[5]);
     node.partition = partition_name(field[1], node.is_default);
-    if (!is_node_name(field[0]) || node.partition.empty() || field[3].empty() || !mebibytes)
+    if (!is_node_name(field[0]) || node.partition.empty() || field[3].empty() || !mebibytes ||
+        !processors)
       return false;
+    const bool up = field[2] == "up";
     node.name = field[0];
-    node.state = printable(field[3]);
-    node.usable = field[2] == "up" && is_usable(field[3]);
+    node.state = printable(field[3]) + (up ? "" : " in a partition that is down");
+    node.usable = up && is_usable(field[3]);
     node.mebibytes = (long long)std::min<std::size_t>(*mebibytes, 1'000'000'000);
+    node.processors = *processors;
     return true;
   });
 }

@@ -48,22 +48,13 @@ struct SlurmLivingJob {
   std::string state_name, comment;
 };
 
-/// One line of `sinfo -h -o '%P|%a|%t|%D|%C'`: the nodes of a partition that are in one state.
-struct SlurmNodes {
-  std::string partition;
-  bool is_default = false;
-  bool up = false;      ///< the partition
-  bool usable = false;  ///< such nodes run jobs, now or after their present ones
-  std::string state;
-  std::size_t nodes = 0, processors = 0;  ///< processors: idle or allocated
-};
-
-/// One line of `sinfo -h -N -o '%N|%P|%a|%t|%m'`: a node, once for each of its partitions.
+/// One line of `sinfo -h -N -o '%N|%P|%a|%t|%m|%C'`: a node, once for each of its partitions.
 struct SlurmNode {
   std::string name, partition, state;
-  bool is_default = false;  ///< the partition
-  bool usable = false;      ///< as in SlurmNodes, and the partition is up
-  long long mebibytes = 0;  ///< of memory
+  bool is_default = false;     ///< the partition
+  bool usable = false;         ///< it runs jobs, now or after its present ones
+  long long mebibytes = 0;     ///< of memory
+  std::size_t processors = 0;  ///< idle or allocated
 };
 
 /// Limits of a partition, by `scontrol -o show partition NAME`; empty: no limit.
@@ -85,7 +76,6 @@ std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::str
 /// Each job once, by id, however many lines its array has.
 std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std::string> lines);
 
-std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines);
 std::optional<std::vector<SlurmNode>> parse_node_list(std::span<const std::string> lines);
 std::optional<SlurmPartition> parse_partition(std::span<const std::string> lines);
 

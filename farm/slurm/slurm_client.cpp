@@ -141,17 +141,8 @@ SlurmAnswer<std::map<std::string, std::string>> SlurmClient::config() const {
   return ask({"scontrol", "show", "config"}, parse_config);
 }
 
-SlurmAnswer<std::vector<SlurmNodes>> SlurmClient::nodes(const std::string& partition) const {
-  auto all = ask({"sinfo", "-h", "-o", "%P|%a|%t|%D|%C"}, parse_nodes);
-  if (all)
-    std::erase_if(*all.value, [&](const SlurmNodes& nodes) {
-      return partition.empty() ? !nodes.is_default : nodes.partition != partition;
-    });
-  return all;
-}
-
 SlurmAnswer<std::vector<SlurmNode>> SlurmClient::node_list(const std::string& partition) const {
-  auto all = ask({"sinfo", "-h", "-N", "-o", "%N|%P|%a|%t|%m"}, parse_node_list);
+  auto all = ask({"sinfo", "-h", "-N", "-o", "%N|%P|%a|%t|%m|%C"}, parse_node_list);
   const auto wanted = split(partition, ",");
   if (all)
     std::erase_if(*all.value, [&](const SlurmNode& node) {

@@ -45,9 +45,7 @@ class SlurmClient {
   /// Returns why the controller does not answer; empty if it does.
   std::string ping() const;
   SlurmAnswer<std::map<std::string, std::string>> config() const;
-  /// The nodes of `partition`, or of the default one if empty.
-  SlurmAnswer<std::vector<SlurmNodes>> nodes(const std::string& partition) const;
-  /// Likewise one by one; `partition` may also be several, separated by commas.
+  /// The nodes of `partition`, which may be several, separated by commas; of the default one if empty.
   SlurmAnswer<std::vector<SlurmNode>> node_list(const std::string& partition) const;
   SlurmAnswer<SlurmPartition> partition(const std::string& name) const;
 

@@ -11,7 +11,7 @@
 #include "core/removal.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
-#include "farm/slurm/run_parts.hpp"
+#include "farm/slurm/submitter.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -184,7 +184,11 @@ class Client {
       return element.state != SlurmElement::State::kPending || waits_for_somebody(element);
     });
     std::string nodes_say;
-    if (progress.running > 0 || !(held || no_node_is_usable(id, nodes_say))) {
+    const auto no_node_is_usable = [&] {
+      return reports_.no_other_node_is_usable(request_.options().partition,
+                                              submitter_.nodes_without(id), nodes_say);
+    };
+    if (progress.running > 0 || !(held || no_node_is_usable())) {
       stalled_since_.reset();
       return;
     }
@@ -203,19 +207,6 @@ class Client {
                 "same command goes on. 'scancel --me --name={}' gives them up",
                 count_text(progress.pending, "element"), ids_text(run_.outcome.jobs),
                 progress.reason, what, run_.record.name);
-  }
-
-  bool no_node_is_usable(SlurmJobId id, std::string& states) const {
-    if (const NodeNames without = submitter_.nodes_without(id); !without.empty())
-      return reports_.no_other_node_is_usable(request_.options().partition, without, states);
-    const auto nodes = run_.client.nodes(options_.slurm.partition);
-    if (!nodes) return false;
-    for (const auto& group : *nodes) {
-      if (group.up && group.usable) return false;
-      append_item(states, fmt::format("{} {}{}", group.nodes, group.state,
-                                      group.up ? "" : " in a partition that is down"));
-    }
-    return !nodes->empty();
   }
 
   /// Waits for results that a network file system shows late.

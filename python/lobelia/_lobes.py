@@ -41,35 +41,12 @@ def catalogue(exponent: float = 64) -> Record:
     return Record.parse(_lobelia.catalogue(exponent))
 
 
-class Lobe:
+class Lobe(_lobelia.Lobe):
     """A lobe: a function of s = 1 - cosine of the lobe's angle, and of the exponent n. It is 1 at s = 0.
 
     >>> lobe("cs16")
     <lobelia lobe cs16>
     """
-
-    def __init__(self, name: str, formula: str = "") -> None:
-        self._lobe = _lobelia.Lobe(name, formula)
-
-    @property
-    def name(self) -> str:
-        """As in scene files: "cs16"."""
-        return self._lobe.name
-
-    @property
-    def title(self) -> str:
-        """For people."""
-        return self._lobe.title
-
-    @property
-    def formula(self) -> str:
-        """The formula in s and n, in plain text."""
-        return self._lobe.formula
-
-    @property
-    def source(self) -> str:
-        """Where the lobe is from."""
-        return self._lobe.source
 
     def value(self, s: ArrayLike, n: ArrayLike) -> Any:
         """The lobe at s (0 to 2) for exponents n (0.001 to 1e8), broadcast together.
@@ -88,8 +65,8 @@ class Lobe:
         if dtype.kind not in "fiub":
             raise UsageError(f"s and n are numbers, not {dtype}")
         if dtype in (np.float32, np.float16):
-            return _evaluate(self._lobe.value32, s, n=n)
-        return _evaluate(self._lobe.value64, s, n=n)
+            return _evaluate(self._value32, s, n=n)
+        return _evaluate(self._value64, s, n=n)
 
     def sample(self, u: ArrayLike, n: ArrayLike) -> Any:
         """s (0 to 1) with a density like the lobe's, from uniform numbers u in [0, 1), for exponents n. float64.
@@ -98,12 +75,12 @@ class Lobe:
         `density`.
         """
         _refuse_masked(u=u, n=n)
-        return _evaluate(self._lobe.sample, u, n=n)
+        return _evaluate(self._sample, u, n=n)
 
     def density(self, s: ArrayLike, n: ArrayLike) -> Any:
         """The density of `sample` over s. Its integral from 0 to 1 is 1. float64."""
         _refuse_masked(s=s, n=n)
-        return _evaluate(self._lobe.density, s, n=n)
+        return _evaluate(self._density, s, n=n)
 
     def __repr__(self) -> str:
         return f"<lobelia lobe {self.name}>"
@@ -147,7 +124,7 @@ def _evaluate(function: Callable[..., Any], *others: ArrayLike, n: ArrayLike) ->
 
 def _highlight(model: str, lobe_: Union[str, Lobe], normalisation: str) -> _lobelia.Highlight:
     prepared = lobe_ if isinstance(lobe_, Lobe) else Lobe(lobe_)
-    return _lobelia.Highlight(model, prepared._lobe, normalisation)
+    return _lobelia.Highlight(model, prepared, normalisation)
 
 
 def coefficient(

@@ -6,7 +6,7 @@ import base64
 import html
 import json
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Dict, List, Union
+from typing import TYPE_CHECKING, Any, Dict, Generic, List, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -193,23 +193,31 @@ class Maps(Mapping[str, NDArray[np.float32]]):
         return len(self._names)
 
 
-class Comparison(Record):
-    """The record of a comparison, with its verdict, its pictures and its maps.
+_Compared = TypeVar("_Compared", _lobelia.Compared, _lobelia.ComparedSet)
 
-    It keeps both pictures in memory, as they were compared: with a layer chosen and cut to `crop`.
-    """
 
-    def __init__(self, compared: _lobelia.Compared) -> None:
+class _Judged(Record, Generic[_Compared]):
+    """A record that is true if its verdict passes."""
+
+    def __init__(self, compared: _Compared) -> None:
         super().__init__(json.loads(compared.record))
-        self._compared = compared
+        self._compared: _Compared = compared
 
     @property
     def passed(self) -> bool:
-        """Whether the verdict is pass or same."""
+        """Whether the verdict is pass or same; of a set, whether every pair passes or is known to differ, and no
+        picture is missing or misnamed."""
         return self._compared.passed
 
     def __bool__(self) -> bool:
         return self.passed
+
+
+class Comparison(_Judged[_lobelia.Compared]):
+    """The record of a comparison, with its verdict, its pictures and its maps.
+
+    It keeps both pictures in memory, as they were compared: with a layer chosen and cut to `crop`.
+    """
 
     @property
     def why(self) -> str:
@@ -270,25 +278,13 @@ class Comparison(Record):
         return self.map_png("ciede2000")
 
 
-class ComparisonSet(Record):
+class ComparisonSet(_Judged[_lobelia.ComparedSet]):
     """The record of a set of pairs, with a verdict over all of them.
 
     Each of `pairs` has its name and its comparison. `missing` are references without a picture, which fail; `extra` are
     pictures without a reference, which do not. `misnamed`, if there are any, are files that nearly are frames of a
     sequence; they fail.
     """
-
-    def __init__(self, compared: _lobelia.ComparedSet) -> None:
-        super().__init__(json.loads(compared.record))
-        self._compared = compared
-
-    @property
-    def passed(self) -> bool:
-        """Whether every pair passes or is known to differ, and no picture is missing or misnamed."""
-        return self._compared.passed
-
-    def __bool__(self) -> bool:
-        return self.passed
 
     @property
     def why(self) -> str:

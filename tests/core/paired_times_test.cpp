@@ -1,5 +1,5 @@
 // A change of speed that is found, and noise that is not.
-#include "core/paired_times.hpp"
+#include "bench/paired_times.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

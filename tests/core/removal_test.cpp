@@ -236,7 +236,6 @@ TEST_F(RemovalTest, ReportsTooManyOpenFiles) {
                                          [&] { held.below("tree"); },
                                          [&] { held.below("tree", HeldDirectory::Border::kCross); },
                                          [&] { held.names(); },
-                                         [&] { held.links(); },
                                          [&] { held.read("marker", 10); },
                                          [&] { held.copy(); },
                                          [&] { all.remove("tree"); }};

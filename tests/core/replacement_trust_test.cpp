@@ -1,6 +1,6 @@
 // A replacement trusts neither the files of a killed process, nor their directory, nor its journal, without a check.
 #include "core/replacement.hpp"
-#include "core/replacement_journal.hpp"
+#include "core/replacement_store.hpp"
 #include "tests/core/replacement_fixture.hpp"
 
 namespace lobelia {

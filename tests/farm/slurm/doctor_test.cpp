@@ -79,7 +79,7 @@ TEST_F(Doctor, SeesAPartitionWithoutUsableNodes) {
   checked.slurm.partition = "none";
   EXPECT_THAT(only_complaint().found, HasSubstr("'none'"));
   checked.slurm.partition = "";
-  fake("sinfo", "echo 'render*|up|drain|3|0/0/6/6'");
+  fake("sinfo", "for n in n1 n2 n3; do echo \"$n|render*|up|drain|1|0/0/2/2\"; done");
   EXPECT_THAT(only_complaint().found, HasSubstr("0 of 3 nodes"));
 }
 

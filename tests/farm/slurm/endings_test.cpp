@@ -213,9 +213,7 @@ TEST_F(FakeSlurmEndings, GiveUpWithTheReasonWhereNoNodeIsLeft) {
 }
 
 TEST_F(FakeSlurmEndings, GiveUpWhereOnlyNodesOutOfUseAreLeft) {
-  fake("sinfo",
-       "case \"$*\" in *-N*) echo 'n1|render*|up|idle|1'; echo 'n2|render*|up|drain|1';; "
-       "*) echo 'render*|up|idle|2|0/4/0/4';; esac");
+  fake("sinfo", "echo 'n1|render*|up|idle|1|0/2/0/2'; echo 'n2|render*|up|drain|1|0/0/2/2'");
   elements_end("0|COMPLETED|None|n1", "never");
   EXPECT_THAT(run_with_reports({"n1"}, "toy").given_up, ElementsAre("job000"));
   EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("(it broke); the others: n2 is drain"));

@@ -29,8 +29,7 @@ echo $n)");
 case "$*" in *--me*) exit 0;; esac
 echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1)");
     fake("scancel", "echo \"$*\" >> \"$d/cancelled\"");
-    fake("sinfo", R"(
-case "$*" in *-N*) for n in n1 n2; do echo "$n|render*|up|idle|8000"; done;; *) echo 'render*|up|idle|2|0/4/0/4';; esac)");
+    fake("sinfo", "for n in n1 n2; do echo \"$n|render*|up|idle|8000|0/2/0/2\"; done");
     fake("scontrol", "echo 'MaxArraySize = 1001'; echo 'KillWait = 1 sec'");
   }
   ~FakeSlurm() override {

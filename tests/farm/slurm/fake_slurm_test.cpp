@@ -32,7 +32,7 @@ TEST_F(FakeSlurm, IsLeftAfterItsTimeLimitIfItHangs) {
   EXPECT_TRUE(submission.unclear);
   for (const std::string& why :
        {submission.why, client.elements(1, "x").why, client.living_jobs("x").why,
-        client.cancel("x"), client.ping(), client.config().why, client.nodes("").why})
+        client.cancel("x"), client.ping(), client.config().why, client.node_list("").why})
     EXPECT_THAT(why, HasSubstr("gave no answer in 0.3 s"));
 }
 
@@ -200,11 +200,14 @@ TEST_F(FakeSlurm, EndsTheRunWithTheStatesOfNodesOutOfUse) {
   jobs(1);
   options.stall = std::chrono::milliseconds(500);
   fake("squeue", "case \"$*\" in *--me*) exit 0;; esac; echo '0|PENDING|Resources|'");
-  fake("sinfo", "echo 'render*|up|drain|3|0/0/6/6'; echo 'other|up|idle|1|0/2/0/2'");
+  fake("sinfo",
+       "for n in n1 n2; do echo \"$n|render*|up|drain|1|0/0/2/2\"; done; "
+       "echo 'n3|render*|down|idle|1|0/2/0/2'; echo 'n4|other|up|idle|1|0/2/0/2'");
   const auto [code, message] = failure();
   EXPECT_EQ(code, ExitCode::kEngine);
-  EXPECT_THAT(message,
-              AllOf(HasSubstr("3 drain"), HasSubstr("sinfo -R"), HasSubstr("State=RESUME")));
+  EXPECT_THAT(message, AllOf(HasSubstr("(n1 is drain, n2 is drain, n3 is idle in a partition that "
+                                       "is down): "),
+                             HasSubstr("sinfo -R"), HasSubstr("State=RESUME")));
 }
 
 TEST_F(FakeSlurm, IsWaitedForWhileSomethingCanStillRun) {

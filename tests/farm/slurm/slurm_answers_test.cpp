@@ -70,9 +70,10 @@ TEST(SlurmAnswers, AreNoneIfTheyAreCutOrOdd) {
         "4294967290|RUNNING|x", "slurm_load_jobs error: Invalid user id"})
     EXPECT_FALSE(parse_living_jobs(Lines{"1|RUNNING|a", line})) << line;
   for (const char* line :
-       {"render*|up|idle|3|0/6/0", "render*|up|idle|x|0/6/0/6", "render*|up||3|0/6/0/6",
-        "|up|idle|3|0/6/0/6", "render*|up|idle|3|0/6/0/6/1", "render*|up|idle|3|0/6//6"})
-    EXPECT_FALSE(parse_nodes(Lines{line})) << line;
+       {"n1|render*|up|idle|1|0/6/0", "n1|render*|up|idle|x|0/6/0/6", "n1|render*|up||1|0/6/0/6",
+        "n1||up|idle|1|0/6/0/6", "-|render*|up|idle|1|0/6/0/6", "n1|render*|up|idle|1|0/6/0/6/1",
+        "n1|render*|up|idle|1|0/6//6", "n1|render*|up|idle|1"})
+    EXPECT_FALSE(parse_node_list(Lines{line})) << line;
   EXPECT_FALSE(parse_config(Lines{"nothing here"}));
 }
 
@@ -95,18 +96,21 @@ TEST(SlurmAnswers, NameALivingJobOnce) {
 }
 
 TEST(SlurmAnswers, SayWhichNodesAreOfUse) {
-  const auto nodes = parse_nodes(Lines{"render*|up|idle|3|0/6/0/6", "render*|up|idle*|1|0/2/0/2",
-                                       "render*|up|idle~|1|0/2/0/2", "render*|up|mix|1|1/1/0/2",
-                                       "render*|up|down*|1|0/0/2/2", "render*|up|drain|1|0/0/2/2",
-                                       "render*|up|drng|1|2/0/0/2", "old|down|idle|1|0/2/0/2"});
+  const auto nodes =
+      parse_node_list(Lines{"n1|render*|up|idle|8000|0/6/0/6", "n2|render*|up|idle*|1|0/2/0/2",
+                            "n3|render*|up|idle~|1|0/2/0/2", "n4|render*|up|mix|8000+|1/1/0/2",
+                            "n5|render*|up|down*|1|0/0/2/2", "n6|render*|up|drain|1|0/0/2/2",
+                            "n7|render*|up|drng|1|2/0/0/2", "n8|old|down|idle|1|0/2/0/2"});
   ASSERT_TRUE(nodes);
   std::vector<bool> usable;
-  for (const auto& group : *nodes) usable.push_back(group.usable);
-  EXPECT_EQ(usable, (std::vector<bool>{true, false, true, true, false, false, false, true}));
+  for (const SlurmNode& node : *nodes) usable.push_back(node.usable);
+  EXPECT_EQ(usable, (std::vector<bool>{true, false, true, true, false, false, false, false}));
   EXPECT_EQ(nodes->at(0).processors, 6u);
   EXPECT_TRUE(nodes->at(0).is_default);
   EXPECT_EQ(nodes->at(0).partition, "render");
-  EXPECT_FALSE(nodes->at(7).up);
+  EXPECT_EQ(nodes->at(3).mebibytes, 8000);
+  EXPECT_EQ(nodes->at(3).processors, 2u);
+  EXPECT_EQ(nodes->at(7).state, "idle in a partition that is down");
 }
 
 TEST(SlurmAnswers, AreKeysAndValuesOfTheConfiguration) {
@@ -129,7 +133,7 @@ TEST(SlurmAnswers, AreReadOrRefusedFromRandomBytes) {
       ASSERT_GE(element.count, 1u);
     ASSERT_GT(parse_submission(lines).value_or(1), 0u);
     parse_living_jobs(lines);
-    parse_nodes(lines);
+    parse_node_list(lines);
     parse_config(lines);
   }
 }

@@ -27,7 +27,7 @@ namespace {
 template <class Function>
 Function* original(const char* name) {
   if (void* found = ::dlsym(RTLD_NEXT, name)) return reinterpret_cast<Function*>(found);
-  std::fprintf(stderr, "core/tsan_tbb.cpp: libtbb has no %s\n", name);
+  std::fprintf(stderr, "tests/tsan_tbb.cpp: libtbb has no %s\n", name);
   std::abort();
 }
 
