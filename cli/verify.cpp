@@ -219,7 +219,7 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
 }
 
 struct VerifyVerdictsArguments {
-  std::string json, pictures;
+  std::string json, plots, pictures;
   std::vector<std::string> noises;
   bool markdown = false;
   verdicts::Options measured;
@@ -234,11 +234,13 @@ ExitCode run_verify_verdicts(VerifyVerdictsArguments options) {
   options.measured.pictures = options.pictures;
   options.measured.programs = options.programs.given();
   OutputFiles().writes_report(options.json);
+  if (!options.plots.empty()) make_directories(options.plots);
   ProgressLine progress;
   records::VerifyVerdicts record = verdicts::measure(
       options.measured, [&](double done) { progress.show(done, "pairs with noise"); });
   progress.clear();
   record.command = command_line();
+  if (!options.plots.empty()) verdicts::write_charts(options.plots, record);
   write_reports(
       options.markdown ? verdicts::report_markdown(record) : verdicts::report_text(record),
       {{options.json, record_text(record)}});
@@ -251,15 +253,7 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyVerdictsArguments>();
   OptionGroup group(*command);
   auto* json = add_json(group, options->json, "verify-verdicts");
-  // Was removed, and hidden here says what to do.
-  command
-      ->add_option_function<std::string>("--plots",
-                                         [](const std::string&) {
-                                           throw Error(ExitCode::kUsage,
-                                                       "--plots was removed; the record of --json "
-                                                       "has the curves' values");
-                                         })
-      ->group("");
+  group.add("--plots", options->plots, "DIR", "Write the curves as SVG files into DIR");
   group.add(
       "--pictures", options->pictures, "DIR",
       "Write the pairs into folders in DIR, for another judge: NOISE-SIZE-SAMPLES-PICTURES/b1, "

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "core/svg_chart.hpp"
 #include "records/verdicts.hpp"
 #include "reference_scenes/engine.hpp"
 
@@ -83,5 +84,11 @@ records::VerifyVerdicts measure(const Options& options, const OnProgress& on_pro
 std::string report_text(const records::VerifyVerdicts& verdicts);
 /// The same table for docs/verdicts.md.
 std::string report_markdown(const records::VerifyVerdicts& verdicts);
+
+/// The share that is called different over how much dimmer a picture is: one chart for each kind of noise, a curve for each
+/// cell.
+std::vector<Chart> charts(const records::VerifyVerdicts& verdicts);
+/// Writes verdicts-NOISE.svg into `directory`, which is made if it is not there.
+void write_charts(const std::filesystem::path& directory, const records::VerifyVerdicts& verdicts);
 
 }  // namespace lobelia::verdicts

@@ -69,7 +69,7 @@ TEST(Verdicts, UsePicturesWithOneExpectation) {
   }
 }
 
-TEST(VerdictReport, NamesWhatIsOutside) {
+TEST(VerdictReport, NamesWhatIsOutsideAndDrawsCurves) {
   records::VerifyVerdicts verdicts;
   verdicts.significance = 0.01;
   verdicts.seeds = 100;
@@ -89,6 +89,11 @@ TEST(VerdictReport, NamesWhatIsOutside) {
   EXPECT_THAT(text, HasSubstr("70 of 100"));
   EXPECT_THAT(text, HasSubstr("10 false alarms in 200 pairs"));
   EXPECT_THAT(text, HasSubstr("cycles: left out, Blender is not installed"));
+  const auto drawn = charts(verdicts);
+  ASSERT_EQ(drawn.size(), 1u);
+  ASSERT_EQ(drawn[0].series.size(), 2u);
+  EXPECT_EQ(drawn[0].series[0].x, (std::vector{0.0, 0.05}));
+  EXPECT_EQ(drawn[0].series[0].y, (std::vector{0.01, 0.7}));
 }
 
 }  // namespace
