@@ -47,8 +47,8 @@ class Test {
         height_(input.a.height()),
         floor_(input.tolerance ? input.tolerance->of_peak * peak_value(input.b) : 0),
         critical_(level_of_single_values(width_, height_, noise_.significance)),
-        has_heavy_tails_((noise_.a && noise_.a->has_heavy_tails()) ||
-                         (noise_.b && noise_.b->has_heavy_tails())) {
+        trusts_own_(!(noise_.a && noise_.a->has_heavy_tails()) &&
+                    !(noise_.b && noise_.b->has_heavy_tails())) {
     result_.critical = critical_.normal();
   }
 
@@ -103,8 +103,8 @@ class Test {
   ValueError error_of(const NoisySum& sum) const {
     double independent = sum.cautious, squares = sum.cautious_squares;
     const bool is_known = sum.own > 0 && sum.own * sum.own >= kEnoughFreedom * sum.own_squares;
-    // Under heavy tails few replicates seldom show how much their mean errs.
-    if (is_known && (!has_heavy_tails_ || sum.own >= sum.cautious)) {
+    // Under heavy tails few pixels' replicates seldom show how much their mean errs.
+    if (is_known && (trusts_own_ || sum.own >= sum.cautious)) {
       independent = sum.own;
       squares = sum.own_squares;
     } else if (independent > 0) {
@@ -218,6 +218,7 @@ class Test {
 
   void look_at_patterns() {
     begin_size(1);
+    trusts_own_ = true;  // of all pixels
     const auto sums = sums_of_patterns(input_.a, input_.b, noise_, [&](std::size_t i) {
       return is_outlier(i / 3) ? 0.0 : excess(i);
     });
@@ -231,7 +232,7 @@ class Test {
   const double floor_;
   ZTest result_;
   const CriticalT critical_;
-  const bool has_heavy_tails_;
+  bool trusts_own_;
   double times_ = 1;
   std::vector<std::size_t> outliers_;  ///< pixels allowed by the tolerance, in reading order
 };
