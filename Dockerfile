@@ -3,7 +3,7 @@
 FROM debian:bookworm AS build
 COPY . /src
 WORKDIR /src
-RUN scripts/setup build packaging && make package SETUP=no
+RUN tools/setup build packaging && make package SETUP=no
 
 FROM debian:bookworm
 COPY --from=build /src/build/release/packages/*.deb /tmp/

@@ -1,4 +1,4 @@
-# The front door. Each target first installs what is missing (scripts/setup), then uses the presets
+# The front door. Each target first installs what is missing (tools/setup), then uses the presets
 # of CMakePresets.json; whoever has everything installed can use cmake and ctest directly.
 
 PRESET ?= release
@@ -14,9 +14,9 @@ BASE    ?= HEAD
 SEED    ?= $(shell date +%s)
 
 # SETUP=no: for systems whose packages have other names than Debian's.
-setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
+setup     = $(if $(filter no,$(SETUP)),@:,@tools/setup)
 for_tests = build engines browser shaders slurm python packaging docs
-npm       = $(if $(filter no,$(SETUP)),@:,@scripts/web)
+npm       = $(if $(filter no,$(SETUP)),@:,@tools/web)
 configure = cmake --preset "$(PRESET)"
 # One more than processors: some tests wait.
 ctest     = ctest --preset "$(PRESET)" --parallel "$$(($(JOBS) + 1))"
@@ -39,8 +39,8 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(setup) build engines
 	$(npm)
 	$(configure)
-	@scripts/tell 'make gallery: building' '' $(build) --target lobelia lobelia_image_io
-	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
+	@tools/tell 'make gallery: building' '' $(build) --target lobelia lobelia_image_io
+	@tools/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
 
 screenshots: ## pictures of every view of the gallery in OUT, for a desktop and a phone, into OUT-screenshots
 	$(setup) build browser
@@ -112,7 +112,7 @@ bench-compare: ## what became slower or faster since the commit BASE, both build
 	$(setup) build
 	$(configure)
 	$(build) --target lobelia lobelia_image_io bench_paired
-	@scripts/bench_compare "$(PRESET)" "$(BASE)"
+	@tools/bench_compare "$(PRESET)" "$(BASE)"
 
 fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_SECONDS (60) each; needs Clang
 	$(setup) build fuzz
@@ -120,7 +120,7 @@ fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_
 	cmake --build --preset fuzz --parallel "$(JOBS)"
 	$(configure)
 	$(build) --target test_renderer_random_scenes test_formulas
-	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
+	@tools/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
 
 chaos: ## faults at random for MINUTES (10): first farms are disturbed, then system calls of six commands fail; SEED=N repeats them
 	$(setup) build chaos
@@ -131,30 +131,30 @@ chaos: ## faults at random for MINUTES (10): first farms are disturbed, then sys
 
 lint: ## checks the layout of the source, and for common mistakes with TIDY=yes (minutes)
 	$(setup) build lint
-	@scripts/lint format
+	@tools/lint format
 ifeq ($(TIDY),yes)
 	$(configure)
 	$(build)
-	@scripts/lint tidy "build/$(PRESET)" "$(JOBS)"
+	@tools/lint tidy "build/$(PRESET)" "$(JOBS)"
 endif
 
 docs: ## writes docs/ as a site to out/docs, with a search; no network is needed to read it
 	$(setup) build docs
 	$(configure)
 	$(build) --target lobelia
-	@LOBELIA_PROGRAM="build/$(PRESET)/bin/lobelia" scripts/docs out/docs
+	@LOBELIA_PROGRAM="build/$(PRESET)/bin/lobelia" tools/docs out/docs
 
-headers: ## writes the headers that people copy, include/lobelia/highlight.hpp and flip_highlight.hpp
-	@scripts/headers include/lobelia
+headers: ## writes the headers that people copy, program/library/lobelia/highlight.hpp and flip_highlight.hpp
+	@tools/headers program/library/lobelia
 
 install: ## builds, and copies programs, library and docs to PREFIX (/usr/local)
 	$(setup) build
 	$(configure)
 	$(build) --target installed
-	@scripts/install "build/$(PRESET)" "$(PREFIX)"
+	@tools/install "build/$(PRESET)" "$(PREFIX)"
 
 uninstall: ## removes what install copied to PREFIX, and no file that was changed since
-	@scripts/install --remove "$(PREFIX)"
+	@tools/install --remove "$(PREFIX)"
 
 package: ## builds Debian packages into build/release/packages
 	$(setup) build packaging

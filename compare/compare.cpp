@@ -7,18 +7,18 @@
 #include <cmath>
 #include <utility>
 
+#include "base/pictures/image_values.hpp"
+#include "base/system/scratch_memory.hpp"
+#include "base/words/constants.hpp"
+#include "base/words/text.hpp"
 #include "compare/disagreement.hpp"
 #include "compare/faults.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/highlights/words.hpp"
 #include "compare/judge_limits.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/require_same_size.hpp"
 #include "compare/uncertainty/z_test.hpp"
-#include "core/constants.hpp"
-#include "core/image_values.hpp"
-#include "core/scratch_memory.hpp"
-#include "core/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

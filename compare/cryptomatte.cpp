@@ -6,12 +6,12 @@
 #include <bit>
 #include <cmath>
 
+#include "base/pictures/contained_reader.hpp"
+#include "base/records/manifest.hpp"
+#include "base/words/text.hpp"
 #include "compare/mask.hpp"
 #include "compare/overscan.hpp"
-#include "compare/require_same_size.hpp"
-#include "core/contained_reader.hpp"
-#include "core/text.hpp"
-#include "records/manifest.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

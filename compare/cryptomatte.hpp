@@ -1,8 +1,8 @@
 // Cryptomatte: which objects cover a pixel, and by how much.
 //
-// Source: J. Friedman, A. C. Jones, "Fully automatic ID mattes with support for motion blur and transparency", SIGGRAPH 2015;
-// Cryptomatte Specification 1.2. The layers NAME00, NAME01, ... hold two pairs each: the hash of an object's name in R and B,
-// as the bits of a float, and the share of the pixel that it covers in G and A.
+// Source: J. Friedman, A. C. Jones, "Fully automatic ID mattes with support for motion blur and transparency", SIGGRAPH
+// 2015; Cryptomatte Specification 1.2. The layers NAME00, NAME01, ... hold two pairs each: the hash of an object's name
+// in R and B, as the bits of a float, and the share of the pixel that it covers in G and A.
 //
 // Objects are compared as a set: their order in a pixel does not matter, and two pairs of one object count together.
 #pragma once
@@ -34,8 +34,8 @@ std::optional<CryptomatteRank> cryptomatte_of(const PictureSource& a, const Pict
 std::vector<std::string> cryptomatte_layers(const PictureSource& source,
                                             const CryptomatteRank& rank);
 
-/// Reads all ranks, cut to the options' part; or all their data on a window of compare/overscan.hpp. Errors as read_picture();
-/// Error(kInput) too if ranks differ in size.
+/// Reads all ranks, cut to the options' part; or all their data on a window of compare/overscan.hpp. Errors as
+/// read_picture(); Error(kInput) too if ranks differ in size.
 CoveredPixels read_cryptomatte(const std::filesystem::path& file, const PictureSource& source,
                                const CryptomatteRank& rank, const ComparisonOptions& options,
                                const std::optional<PixelWindow>& window = {});

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/compare.hpp"
-#include "compare/require_same_size.hpp"
-#include "core/scratch_memory.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "base/words/constants.hpp"
+#include "base/words/text.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/constants.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

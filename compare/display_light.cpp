@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/scratch_memory.hpp"
+#include "base/system/scratch_memory.hpp"
 
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__

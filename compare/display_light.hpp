@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "core/colour.hpp"
-#include "core/image.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image.hpp"
 
 namespace lobelia {
 

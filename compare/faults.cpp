@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "core/colour.hpp"
-#include "core/image_values.hpp"
-#include "core/numbers.hpp"
-#include "core/scratch_memory.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/scratch_memory.hpp"
+#include "base/words/numbers.hpp"
 
 namespace lobelia {
 namespace {

@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image.hpp"
-#include "records/comparison.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/comparison.hpp"
 
 namespace lobelia {
 

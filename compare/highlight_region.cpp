@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_values.hpp"
 #include "compare/highlights/find.hpp"
-#include "core/colour.hpp"
-#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

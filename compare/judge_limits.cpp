@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/words/constants.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {

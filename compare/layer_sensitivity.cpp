@@ -7,13 +7,13 @@
 #include <numbers>
 #include <set>
 
+#include "base/pictures/colour.hpp"
+#include "base/pictures/contained_reader.hpp"
+#include "base/pictures/half.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/error.hpp"
+#include "base/words/constants.hpp"
 #include "compare/cryptomatte.hpp"
-#include "core/colour.hpp"
-#include "core/constants.hpp"
-#include "core/contained_reader.hpp"
-#include "core/error.hpp"
-#include "core/half.hpp"
-#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,12 +7,12 @@
 #include <bit>
 #include <cmath>
 
+#include "base/pictures/image_values.hpp"
+#include "base/words/text.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/layers.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/require_same_size.hpp"
-#include "core/image_values.hpp"
-#include "core/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

@@ -22,9 +22,9 @@ LayerType type_of_layers(const PictureSource& a, const PictureSource& b,
 /// Whether a limit on that figure judges layers of the type. `has_coverage`: the layer is a Cryptomatte.
 bool can_judge(LayerType type, std::string_view metric, bool has_coverage);
 
-/// The options by which layers of the type are judged. Only limits on what is measured of the type are left of the given ones.
-/// Default limits of the type are added, each unless there is one on its metric; without default limits only if no other is
-/// left, so that no layer passes unjudged. Not colours but alpha are at the exposure 0 on a plain display.
+/// The options by which layers of the type are judged. Only limits on what is measured of the type are left of the given
+/// ones. Default limits of the type are added, each unless there is one on its metric; without default limits only if no
+/// other is left, so that no layer passes unjudged. Not colours but alpha are at the exposure 0 on a plain display.
 ComparisonOptions options_of_type(LayerType type, const ComparisonOptions& options,
                                   bool has_coverage = false);
 

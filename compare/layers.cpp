@@ -6,15 +6,15 @@
 #include <cmath>
 #include <set>
 
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/pictures/picture_colour.hpp"
+#include "base/words/text.hpp"
 #include "compare/cryptomatte.hpp"
 #include "compare/layer_types.hpp"
 #include "compare/mask.hpp"
 #include "compare/overscan.hpp"
-#include "compare/require_same_size.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
-#include "core/picture_colour.hpp"
-#include "core/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -40,9 +40,9 @@ bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSourc
 double rounding_of(const PictureSource& source, double value);
 
 /// compare() for pictures read from files, which messages name, by the type of their layer (compare/layer_types.hpp).
-/// Identifiers are read again, as the files store them; of a Cryptomatte all ranks are. Values that are background in depth,
-/// and where allows_equal_nonfinite() those that are not finite in both, become 0 in `pair`. Throws Error(kInput) if the sizes
-/// differ, and the errors of read_picture() and compare().
+/// Identifiers are read again, as the files store them; of a Cryptomatte all ranks are. Values that are background in
+/// depth, and where allows_equal_nonfinite() those that are not finite in both, become 0 in `pair`. Throws Error(kInput)
+/// if the sizes differ, and the errors of read_picture() and compare().
 Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,
                             const ComparisonOptions& options);
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/image_io.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <variant>
 
-#include "core/picture.hpp"
-#include "core/pixel_flags.hpp"
+#include "base/pictures/picture.hpp"
+#include "base/pictures/pixel_flags.hpp"
 
 namespace lobelia {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/require_same_size.hpp"
-#include "core/text.hpp"
+#include "base/words/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,8 +1,8 @@
 // NaN and infinity: the first place of one in a picture, and those that two pictures share.
 #pragma once
 
-#include "core/picture.hpp"
-#include "records/comparison.hpp"
+#include "base/pictures/picture.hpp"
+#include "base/records/comparison.hpp"
 
 namespace lobelia {
 

@@ -1,8 +1,8 @@
 // Pixels of two pictures outside their display windows.
 #pragma once
 
+#include "base/pictures/layer_type.hpp"
 #include "compare/layers.hpp"
-#include "core/layer_type.hpp"
 
 namespace lobelia {
 

@@ -1,7 +1,7 @@
 // A comparison and its layers as records.
+#include "base/pictures/orientation.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/layers.hpp"
-#include "core/orientation.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,16 +7,16 @@
 #include <cmath>
 #include <utility>
 
+#include "base/pictures/colour.hpp"
+#include "base/pictures/half.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/highlights/judge.hpp"
 #include "compare/highlights/words.hpp"
 #include "compare/layers.hpp"
-#include "compare/profile/peak.hpp"
-#include "core/colour.hpp"
-#include "core/error.hpp"
-#include "core/half.hpp"
-#include "core/image_values.hpp"
-#include "core/text.hpp"
+#include "profile/peak.hpp"
 
 namespace lobelia {
 namespace {

@@ -28,10 +28,11 @@ struct Change {
 /// The result of comparing a changed copy with the original.
 Change change_of(std::string name, Expected expected, const Comparison& comparison);
 
-/// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without its
-/// brightest highlight, with each of the eight largest highlights gone, dimmer and moved in turn, and copies that only round or
-/// have known noise. Each highlight is also alone in `a`: then the reference is compared with the copy that lacks it.
-/// `options` without noise and without tolerance for edges. Throws Error(kInput) if the picture has no positive value or one that is not finite.
+/// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without
+/// its brightest highlight, with each of the eight largest highlights gone, dimmer and moved in turn, and copies that
+/// only round or have known noise. Each highlight is also alone in `a`: then the reference is compared with the copy that
+/// lacks it. `options` without noise and without tolerance for edges. Throws Error(kInput) if the picture has no positive
+/// value or one that is not finite.
 std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions& options);
 
 /// Whether every change is as expected.

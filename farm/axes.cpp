@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/image.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 #include "farm/grid.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/formula.hpp"

@@ -12,10 +12,10 @@
 #include <charconv>
 #include <fstream>
 
-#include "core/files.hpp"
-#include "core/host.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "base/system/files.hpp"
+#include "base/system/host.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/byte_locks.hpp"
-#include "core/removal.hpp"
+#include "base/system/byte_locks.hpp"
+#include "base/system/removal.hpp"
 
 namespace lobelia {
 

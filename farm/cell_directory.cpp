@@ -10,10 +10,10 @@
 #include <cstring>
 #include <iterator>
 
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "farm/make_result.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -11,11 +11,11 @@
 #include <iterator>
 #include <numeric>
 
-#include "core/files.hpp"
-#include "core/host.hpp"
-#include "core/text.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/system/host.hpp"
+#include "base/words/text.hpp"
 #include "farm/slurm/slurm_answers.hpp"
-#include "records/record.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {

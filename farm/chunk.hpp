@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/sha256.hpp"
+#include "base/system/sha256.hpp"
 #include "farm/farm_session.hpp"
 
 namespace lobelia {
@@ -24,9 +24,9 @@ struct ChunkSummary {
   std::vector<LeftUndone> left;
 };
 
-/// Does the jobs of the file that have their inputs. A chunk says what is started, what is read and where it is written, so
-/// it needs leave. With `planned`, it also has to be the file that was planned: of that hash. Throws Error: kUsage (no leave),
-/// kInput (no such chunk, or another one than was planned), kOutput, kInterrupted.
+/// Does the jobs of the file that have their inputs. A chunk says what is started, what is read and where it is written,
+/// so it needs leave. With `planned`, it also has to be the file that was planned: of that hash. Throws Error: kUsage (no
+/// leave), kInput (no such chunk, or another one than was planned), kOutput, kInterrupted.
 ChunkSummary exec_chunk(const std::filesystem::path& file, int threads, const Leave& leave,
                         const std::optional<Sha256Digest>& planned = {});
 
@@ -38,7 +38,8 @@ struct ChunkReport : records::FarmChunkReport {
 /// The node that this process runs on: $SLURMD_NODENAME, otherwise the host's name.
 std::string own_node_name();
 
-/// Writes nothing if nothing was left. Throws Error(kOutput), also if a link is in the way or the node's name is no valid one.
+/// Writes nothing if nothing was left. Throws Error(kOutput), also if a link is in the way or the node's name is no valid
+/// one.
 void write_chunk_report(const std::filesystem::path& run_directory, std::size_t number,
                         std::span<const LeftUndone> left);
 

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/records/record.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "farm/cell_directory.hpp"
 #include "farm/upkeep.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "farm/result_cache.hpp"
 
 namespace lobelia {

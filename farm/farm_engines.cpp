@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
-#include "core/version.hpp"
+#include "base/records/farm_file.hpp"
+#include "base/records/record.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/version.hpp"
+#include "base/words/text.hpp"
 #include "farm/job.hpp"
-#include "records/farm_file.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 namespace {

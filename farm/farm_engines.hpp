@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "records/farm.hpp"
+#include "base/records/farm.hpp"
 #include "reference_scenes/content.hpp"
 #include "reference_scenes/engines/outside/outside.hpp"
 

@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <unordered_set>
 
-#include "core/files.hpp"
-#include "core/text.hpp"
-#include "core/threads.hpp"
+#include "base/records/farm_file.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/system/threads.hpp"
+#include "base/words/text.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
-#include "records/farm_file.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

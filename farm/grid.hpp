@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-#include "records/outside_engine.hpp"
+#include "base/records/outside_engine.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene.hpp"
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "farm/grid.hpp"
 #include "renderer/scene/xml_source.hpp"
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <set>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image.hpp"
-#include "core/shipped_files.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/shipped_files.hpp"
+#include "base/words/text.hpp"
 #include "farm/grid_choices.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/outside/outside_reader.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/sha256.hpp"
+#include "base/system/sha256.hpp"
 
 namespace lobelia {
 

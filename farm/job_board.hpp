@@ -11,7 +11,7 @@
 #include <mutex>
 #include <queue>
 
-#include "core/interrupt.hpp"
+#include "base/system/interrupt.hpp"
 #include "farm/job_run.hpp"
 
 namespace lobelia {

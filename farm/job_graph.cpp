@@ -9,7 +9,7 @@
 #include <mutex>
 #include <numeric>
 
-#include "core/interrupt.hpp"
+#include "base/system/interrupt.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <ctime>
 
-#include "core/files.hpp"
-#include "core/group_flush.hpp"
-#include "core/host.hpp"
-#include "core/text.hpp"
+#include "base/system/files.hpp"
+#include "base/system/group_flush.hpp"
+#include "base/system/host.hpp"
+#include "base/words/text.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/job_board.hpp"
 #include "farm/make_result.hpp"

@@ -6,12 +6,12 @@
 #include <cerrno>
 #include <thread>
 
-#include "core/at_once.hpp"
-#include "core/host.hpp"
-#include "core/image_io.hpp"
-#include "core/no_resources.hpp"
-#include "core/numbers.hpp"
-#include "core/threads.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/at_once.hpp"
+#include "base/system/host.hpp"
+#include "base/system/no_resources.hpp"
+#include "base/system/threads.hpp"
+#include "base/words/numbers.hpp"
 #include "farm/job_maker.hpp"
 #include "reference_scenes/replicates.hpp"
 

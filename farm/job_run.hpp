@@ -3,9 +3,9 @@
 
 #include <chrono>
 
-#include "core/group_flush.hpp"
+#include "base/records/cluster.hpp"
+#include "base/system/group_flush.hpp"
 #include "farm/job_states.hpp"
-#include "records/cluster.hpp"
 
 namespace lobelia {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/interrupt.hpp"
+#include "base/system/interrupt.hpp"
 #include "farm/make_result.hpp"
 
 namespace lobelia {

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/words/numbers.hpp"
 #include "compare/set/job.hpp"
-#include "core/colour.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
-#include "core/numbers.hpp"
 #include "farm/profile_scene.hpp"
-#include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/replicates.hpp"

@@ -3,8 +3,8 @@
 
 #include <chrono>
 
+#include "base/system/error.hpp"
 #include "compare/compare.hpp"
-#include "core/error.hpp"
 #include "farm/farm_engines.hpp"
 #include "farm/result_cache.hpp"
 #include "reference_scenes/failure.hpp"

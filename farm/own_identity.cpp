@@ -7,14 +7,14 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "core/host.hpp"
-#include "core/image_io_module.hpp"
-#include "core/interrupt.hpp"
-#include "core/no_resources.hpp"
-#include "core/process.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
-#include "core/version.hpp"
+#include "base/pictures/image_io_module.hpp"
+#include "base/system/host.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/no_resources.hpp"
+#include "base/system/process.hpp"
+#include "base/system/sha256.hpp"
+#include "base/system/version.hpp"
+#include "base/words/text.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "compare/profile/clipping.hpp"
-#include "compare/profile/stored_steps.hpp"
-#include "core/error.hpp"
+#include "base/system/error.hpp"
+#include "profile/clipping.hpp"
+#include "profile/stored_steps.hpp"
 #include "renderer/chord.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/lobe_properties.hpp"

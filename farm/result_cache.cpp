@@ -11,8 +11,8 @@
 #include <ctime>
 #include <random>
 
-#include "core/files.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

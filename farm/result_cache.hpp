@@ -5,7 +5,7 @@
 //   CACHE/failures/ab/KEY.json      why there is no result, and KEY.log beside it
 //   CACHE/contents/SHA256.json      the files of a program that made results
 //   CACHE/making/                   results in the making (DraftName)
-//   CACHE/locks                     claims (core/byte_locks.hpp)
+//   CACHE/locks                     claims (base/system/byte_locks.hpp)
 //
 // Symbolic links among these are not followed. docs/decisions/0005: why directories; 0006: how lost results come back.
 #pragma once

@@ -8,14 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/records/farm_file.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "farm/cell_directory.hpp"
 #include "farm/failed_jobs.hpp"
-#include "records/farm_file.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

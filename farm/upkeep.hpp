@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "records/farm.hpp"
+#include "base/records/farm.hpp"
 
 namespace lobelia {
 
@@ -49,8 +49,8 @@ struct GcReport {
   std::vector<std::string> stays;  ///< "PATH: why it cannot be removed"
 };
 
-/// Removes drafts of killed farms, failures of results that are there, and the least recently used results until the rest has
-/// at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
+/// Removes drafts of killed farms, failures of results that are there, and the least recently used results until the rest
+/// has at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
 GcReport collect_garbage(const std::filesystem::path& cache, std::optional<std::uint64_t> max_bytes,
                          const RemovalOptions& options = {});
 
@@ -73,8 +73,8 @@ records::StatusCounts count_statuses(const std::vector<std::string>& statuses);
 /// The state of every cell. May be called while a farm is running there.
 records::FarmStatus farm_status(const std::filesystem::path& directory);
 
-/// The parts of the keys of a cell's results, or only of `job` ("reference-povray"), and which have changed. Engines are those
-/// in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
+/// The parts of the keys of a cell's results, or only of `job` ("reference-povray"), and which have changed. Engines are
+/// those in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
 records::FarmExplanation explain_cell(const std::filesystem::path& directory,
                                       const std::string& cell, const std::string& job,
                                       const std::map<std::string, std::filesystem::path>& programs);

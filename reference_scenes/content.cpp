@@ -10,13 +10,13 @@
 #include <ctime>
 #include <functional>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/host.hpp"
-#include "core/no_resources.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/host.hpp"
+#include "base/system/no_resources.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

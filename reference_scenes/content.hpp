@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/files.hpp"
-#include "core/sha256.hpp"
-#include "records/result.hpp"
+#include "base/records/result.hpp"
+#include "base/system/files.hpp"
+#include "base/system/sha256.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia {
@@ -93,7 +93,8 @@ class LoaderTrace {
   std::filesystem::path directory_;
 };
 
-/// The content of an engine that is ready; empty for one that is part of Lobelia. Reads only files that `hashes` does not know.
+/// The content of an engine that is ready; empty for one that is part of Lobelia. Reads only files that `hashes` does not
+/// know.
 Content engine_content(const EngineStatus& status, FileHashes& hashes);
 
 }  // namespace lobelia

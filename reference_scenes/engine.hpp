@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image.hpp"
-#include "records/outside_engine.hpp"
-#include "records/render.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/outside_engine.hpp"
+#include "base/records/render.hpp"
 #include "reference_scenes/failure.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -30,8 +30,9 @@ inline constexpr double kFloat32Rounding = 0x1p-24, kHalfRounding = 0x1p-11;
 struct EngineFloor {
   double of_value = 0;  ///< share of the value: the rounding of the picture
   double of_peak = 0;   ///< share of the peak: the rounding of colours
-  /// Error of a point's place, as a share of its distance from the camera. On a sphere the normal turns by it over the radius,
-  /// and the lobe's angle by twice that; cos^n falls by up to sqrt(n / e) of its peak per radian, and N.L by up to 1.
+  /// Error of a point's place, as a share of its distance from the camera. On a sphere the normal turns by it over the
+  /// radius, and the lobe's angle by twice that; cos^n falls by up to sqrt(n / e) of its peak per radian, and N.L by up
+  /// to 1.
   double of_place = 0;
   /// Rounding of the quadratic that finds the point, as a share of the squared distance from the camera. The normal turns by
   /// it times the square of distance over radius: the root halves it, and a slanting ray takes the half away again.
@@ -199,8 +200,8 @@ class Engine {
                       const AxisValues& axes = {}) const;
   /// Its description, if it is not one of the catalogue; otherwise null.
   virtual const records::OutsideEngine* outside() const { return nullptr; }
-  /// The part of a picture's cache key that its version, files and scene do not cover. What takes longer than `time_limit` to
-  /// read is not read: the picture fails.
+  /// The part of a picture's cache key that its version, files and scene do not cover. What takes longer than
+  /// `time_limit` to read is not read: the picture fails.
   virtual std::string key_part(const Film&, const AxisValues&,
                                std::chrono::duration<double> /*time_limit*/) const {
     return "";
@@ -218,8 +219,8 @@ class Engine {
   virtual std::unique_ptr<SimpleSession> open_simple(const ReferenceOptions& options) = 0;
 };
 
-/// How an engine shades each model, by what it says of a sphere under one directional light. Empty for what is not a program of
-/// the catalogue.
+/// How an engine shades each model, by what it says of a sphere under one directional light. Empty for what is not a
+/// program of the catalogue.
 std::vector<records::EngineModel> engine_models(const Engine& engine);
 
 /// Throws Error(kEngine) with the reason and the install hint unless the engine is available.
@@ -228,8 +229,8 @@ void require_available(const EngineInfo& engine, const EngineStatus& status);
 /// Bytes of all the pictures that a scene is averaged from; 0 if it is a single picture.
 std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& options);
 
-/// Attributes of the EXR: the engine, the method and the scene. No times and no paths, so that the same reference is the same
-/// file.
+/// Attributes of the EXR: the engine, the method and the scene. No times and no paths, so that the same reference is the
+/// same file.
 ImageMetadata reference_metadata(const Scene& scene, const records::Reference& record);
 
 /// The catalogue of engines. Unknown names throw Error(kUsage). An empty `program` means the one in $PATH.

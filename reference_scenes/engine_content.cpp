@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/no_resources.hpp"
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/no_resources.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

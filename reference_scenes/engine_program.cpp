@@ -8,14 +8,14 @@
 #include <iterator>
 #include <thread>
 
-#include "core/contained_reader.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image_io_module.hpp"
-#include "core/interrupt.hpp"
-#include "core/numbers.hpp"
-#include "core/removal.hpp"
-#include "core/text.hpp"
+#include "base/pictures/contained_reader.hpp"
+#include "base/pictures/image_io_module.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/removal.hpp"
+#include "base/words/numbers.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/content.hpp"
 #include "renderer/render_record.hpp"
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/picture_file.hpp"
-#include "core/process.hpp"
+#include "base/pictures/picture_file.hpp"
+#include "base/system/process.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia {

@@ -15,11 +15,11 @@
 #include <optional>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/interrupt.hpp"
-#include "core/removal.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/removal.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
 

@@ -7,10 +7,10 @@
 //   lobelia: failed NAME WHY
 //   lobelia: more
 //
-// and whatever else, which goes into the scene's log. At "done" the pictures NAME-PASS.FORMAT lie in its directory, float RGB
-// of the film's size; they add up. After "more" a line of standard input names a file there with another scene; an empty line
-// or the end of the input ends the program. CPU_SECONDS and PEAK_BYTES count from its start and may be left out. A scene that
-// takes too long ends it by SIGALRM, or with exit code 142.
+// and whatever else, which goes into the scene's log. At "done" the pictures NAME-PASS.FORMAT lie in its directory, float
+// RGB of the film's size; they add up. After "more" a line of standard input names a file there with another scene; an
+// empty line or the end of the input ends the program. CPU_SECONDS and PEAK_BYTES count from its start and may be left
+// out. A scene that takes too long ends it by SIGALRM, or with exit code 142.
 #pragma once
 
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constants.hpp"
-#include "core/error.hpp"
+#include "base/system/error.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/contact.hpp"
 

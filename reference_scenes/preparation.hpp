@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {

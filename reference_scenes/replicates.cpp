@@ -4,7 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"

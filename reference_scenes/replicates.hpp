@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/at_once.hpp"
-#include "core/error.hpp"
-#include "core/image_values.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/at_once.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"

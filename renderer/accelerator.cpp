@@ -2,8 +2,8 @@
 
 #include <embree3/rtcore.h>
 
-#include "core/error.hpp"
-#include "core/module.hpp"
+#include "base/system/error.hpp"
+#include "base/system/module.hpp"
 #include "renderer/chord.hpp"
 
 namespace lobelia {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/reflector.hpp"
 
@@ -18,8 +18,8 @@ namespace {
 constexpr double kNarrowestPiece = 1e-12;  ///< radians
 constexpr double kSame = 1e-9;             ///< smaller differences are rounding
 
-/// The integral of coefficient * lobe * (a factor of the moving cosine) over all directions of one vector while the other stays.
-/// Lobes treat light and eye alike, so either may move.
+/// The integral of coefficient * lobe * (a factor of the moving cosine) over all directions of one vector while the other
+/// stays. Lobes treat light and eye alike, so either may move.
 ///
 /// The integral runs over the lobe's angle t and its azimuth p. With c and e the cosine and the sine of the
 /// incidence, the Phong models turn the moving vector by x = t out of the mirror direction, and the Blinn models by

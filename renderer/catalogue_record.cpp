@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/scene/scene_format.hpp"

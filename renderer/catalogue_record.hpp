@@ -1,7 +1,7 @@
 // The catalogues of models and lobes, with formulas and measurements, as records.
 #pragma once
 
-#include "records/models.hpp"
+#include "base/records/models.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/operation_count.hpp"
 

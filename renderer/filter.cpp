@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "renderer/filters.hpp"
 
 namespace lobelia {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/numbers.hpp"
-#include "core/text.hpp"
+#include "base/words/numbers.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,6 +1,6 @@
 #include "renderer/fresnel.hpp"
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {

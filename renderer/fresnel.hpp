@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 
 namespace lobelia {
 

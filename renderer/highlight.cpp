@@ -11,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 #include "renderer/formula_lobe.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/lobe_properties.hpp"
 
 namespace lobelia {

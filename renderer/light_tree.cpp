@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 
 namespace lobelia {
 namespace {

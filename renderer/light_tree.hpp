@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/lights/lights.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 
 namespace lobelia {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "renderer/chord.hpp"
 #include "renderer/scene/contact.hpp"
 

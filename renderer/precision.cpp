@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/half.hpp"
-#include "core/text.hpp"
+#include "base/pictures/half.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {

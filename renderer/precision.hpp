@@ -15,8 +15,8 @@ enum class Precision : std::uint8_t {
   kFloat32,  ///< unit vectors are rounded to float32, the rest is float32
   kMixed,    ///< s = 1 - cos is computed in float64 and rounded; the lobe is float32
   kFloat64,  ///< everything is float64
-  /// As a phone may shade: unit vectors, s and the lobe in half floats (core/half.hpp). Emulated, so its time is not a
-  /// phone's, and no plan chooses it.
+  /// As a phone may shade: unit vectors, s and the lobe in half floats (base/pictures/half.hpp). Emulated, so its time is
+  /// not a phone's, and no plan chooses it.
   kFloat16,
 };
 inline constexpr std::size_t kPrecisionCount = 4;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
 
 namespace lobelia {
 

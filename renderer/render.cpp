@@ -10,9 +10,9 @@
 #include <chrono>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/interrupt.hpp"
-#include "core/threads.hpp"
+#include "base/system/error.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/threads.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_format.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/plan/plan.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/work.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/version.hpp"
+#include "base/system/version.hpp"
 #include "renderer/formula.hpp"
 #include "renderer/scene/scene_io.hpp"
 

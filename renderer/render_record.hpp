@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/image.hpp"
-#include "records/render.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/render.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia {

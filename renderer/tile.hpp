@@ -1,7 +1,7 @@
 // Renders a square of a picture: chooses the samples of its pixels, and averages them.
 #pragma once
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/waves/waves.hpp"
 
 namespace lobelia {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia::studies {
 namespace {

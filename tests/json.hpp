@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "core/files.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
 
 namespace lobelia {
 

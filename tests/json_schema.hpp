@@ -8,7 +8,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "records/catalogue.hpp"
+#include "base/records/catalogue.hpp"
 #include "tests/json.hpp"
 
 namespace lobelia {

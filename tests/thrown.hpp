@@ -1,7 +1,7 @@
 // The error that an action ends with.
 #pragma once
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

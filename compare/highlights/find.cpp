@@ -8,11 +8,11 @@
 #include <cmath>
 #include <functional>
 
+#include "base/pictures/image_values.hpp"
+#include "base/system/scratch_memory.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/highlights/slack.hpp"
-#include "compare/profile/peak.hpp"
-#include "core/image_values.hpp"
-#include "core/scratch_memory.hpp"
+#include "profile/peak.hpp"
 
 namespace lobelia {
 namespace {

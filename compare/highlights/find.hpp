@@ -10,7 +10,8 @@
 //               pixels  those that connect to the peak above base + kSkirt * height
 //               core    those of them above base + height / 2
 //               ring    some of those beyond, between 1.3 and 2.5 of their radius, within height / 4 of the base
-// Kept:         a highlight of at least kFewestPixelsOfOne pixels whose height is a quarter of its own peak, and that stands out
+// Kept:         a highlight of at least kFewestPixelsOfOne pixels whose height is a quarter of its own peak, and that
+// stands out
 //               from noise and roughness (slack.hpp). No threshold depends on the brightest pixel, but for one on light
 //               that no exposure would show.
 // Work:         bounded: a large picture is first reduced to the largest values of squares, 2^20 at the most. At most
@@ -25,8 +26,8 @@
 #include <span>
 #include <vector>
 
-#include "core/image.hpp"
-#include "core/pixel_flags.hpp"
+#include "base/pictures/image.hpp"
+#include "base/pictures/pixel_flags.hpp"
 
 namespace lobelia {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "compare/profile/peak.hpp"
+#include "profile/peak.hpp"
 
 namespace lobelia {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "compare/profile/peak.hpp"
 #include "compare/uncertainty/z_test.hpp"
+#include "profile/peak.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,8 +1,8 @@
 // Sentences about highlights that were judged one by one.
 #pragma once
 
+#include "base/records/comparison.hpp"
 #include "compare/highlights/judge.hpp"
-#include "records/comparison.hpp"
 
 namespace lobelia {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/ciede2000.hpp"
 #include "compare/metrics/code_values.hpp"
 #include "compare/metrics/delta_e_itp.hpp"
 #include "compare/metrics/flip_error.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

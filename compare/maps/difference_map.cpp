@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "compare/require_same_size.hpp"
-#include "core/constants.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/words/constants.hpp"
+#include "base/words/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/svg_chart.hpp"
+#include "base/words/svg_chart.hpp"
 
 namespace lobelia {
 namespace {

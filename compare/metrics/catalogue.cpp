@@ -7,7 +7,7 @@
 #include <deque>
 #include <mutex>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 
 // One line per metric. A file of that name in this directory defines `const Metric <name>_metric`; pixels_over.cpp
 // defines those that end in _over.

@@ -37,8 +37,8 @@ std::string why_not_measured(const Metric& metric, const MetricInput& input);
 /// or a region ("highlight"). A threshold above 0 is meant by its id alone.
 bool is_named(const Metric& metric, std::string_view name);
 
-/// Why no limit on the output can have this value, with what to write instead; empty if one can. A signed error takes a limit
-/// on its size.
+/// Why no limit on the output can have this value, with what to write instead; empty if one can. A signed error takes a
+/// limit on its size.
 std::string limit_problem(const MetricOutput& output, double limit);
 
 /// Whether a value passes a limit; false if either is NaN.

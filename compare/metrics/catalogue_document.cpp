@@ -136,7 +136,7 @@ std::string metrics_document() {
       "\n"
       "Tell the comparison the noise of a Monte-Carlo picture: by independent pictures of the same\n"
       "(`--a-replicate`, `--b-replicate`), by pictures of variances (`--a-variance`, `--b-variance`) or of standard\n"
-      "errors (`--a-error`, `--b-error`). `compare/uncertainty/noise.hpp` has the assumptions.\n"
+      "errors (`--a-error`, `--b-error`). `profile/noise.hpp` has the assumptions.\n"
       "\n"
       "**z** is a difference in units of its noise, as a standard normal number that is as rare. Every value is\n"
       "tested, and sums over squares of 2, 4, 8, ... pixels, which find small drifts. Four sums over the picture\n"

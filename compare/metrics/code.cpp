@@ -9,8 +9,8 @@
 
 #include <algorithm>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/metrics/code_values.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/metrics/shared_work.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

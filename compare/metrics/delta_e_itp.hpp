@@ -1,8 +1,8 @@
 // The colour difference delta E ITP of two colours.
 #pragma once
 
+#include "base/words/vec.hpp"
 #include "compare/metrics/pixel_differences.hpp"
-#include "core/vec.hpp"
 
 namespace lobelia {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <memory>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/metrics/flip_kernels.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {
@@ -39,8 +39,8 @@ struct FlipArea {
 template <class T>
 using Aligned = std::vector<T, oneapi::tbb::cache_aligned_allocator<T>>;
 
-/// One picture's rows of a tile that have been filtered along. Pixels of the picture's border repeat beyond it. Holds no more
-/// rows than a band and the filters around it are high, so that they stay in the cache.
+/// One picture's rows of a tile that have been filtered along. Pixels of the picture's border repeat beyond it. Holds no
+/// more rows than a band and the filters around it are high, so that they stay in the cache.
 class FlipTileRows {
  public:
   FlipTileRows(const DisplayLight& shown, const FlipFilters& filters, const FlipTile& tile);

@@ -29,8 +29,8 @@ void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFi
 /// Fills in the values of a tile, in rows that are flip_padded(tile.width) apart. Called on many threads.
 using FlipTileValues = std::function<void(const FlipTile& tile, std::span<float> values)>;
 
-/// The errors of all pixels. With `needed`, only those in the smallest rectangle around its non-zero pixels are computed; the
-/// others are 0.
+/// The errors of all pixels. With `needed`, only those in the smallest rectangle around its non-zero pixels are computed;
+/// the others are 0.
 PixelValues flip_map(int width, int height, const FlipTileValues& values_of,
                      std::span<const std::uint8_t> needed = {});
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/error.hpp"
+#include "base/system/scratch_memory.hpp"
 #include "compare/metrics/metric.hpp"
 #include "compare/metrics/pixel_differences.hpp"
-#include "core/error.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

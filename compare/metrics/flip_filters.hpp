@@ -77,8 +77,8 @@ struct FlipFiltered {
   Values y, cx, cz_1, cz_2, dx, dy, ddx, ddy;
 };
 
-/// Where the rows of a band and around it are in a block: row y of the band at offsets[radius + y]. There are kFlipBand + 2 *
-/// radius offsets. `rows` of the band are wanted.
+/// Where the rows of a band and around it are in a block: row y of the band at offsets[radius + y]. There are kFlipBand +
+/// 2 * radius offsets. `rows` of the band are wanted.
 struct FlipTapsDown {
   const std::size_t* offsets;
   std::size_t radius, rows;

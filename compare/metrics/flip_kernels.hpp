@@ -8,8 +8,8 @@ namespace lobelia {
 /// Converts linear RGB in [0, 1], three values a pixel. `count` is a multiple of kFlipBlock.
 void flip_colours(const float* rgb, const FlipColours& out, std::size_t count);
 
-/// Filters a row of both pictures along, into row `slot` of the outputs. The inputs begin at the row's first column of output,
-/// aligned to 64 bytes; flip_padded(radius() + 1) columns before and after the padded row may be read.
+/// Filters a row of both pictures along, into row `slot` of the outputs. The inputs begin at the row's first column of
+/// output, aligned to 64 bytes; flip_padded(radius() + 1) columns before and after the padded row may be read.
 void flip_filter_along(const FlipFilters& filters, const FlipColours& a, const FlipColours& b,
                        const FlipRows& out_a, const FlipRows& out_b, std::size_t slot);
 

@@ -159,8 +159,8 @@ HWY_INLINE Lanes distance(const Triple<Lanes>& rgb_a, const Triple<Lanes>& rgb_b
   return hn::Add(hn::Abs(dl), hn::Sqrt(hn::MulAdd(da, da, hn::Mul(db, db))));
 }
 
-// No two colours of a display are farther apart than its green and its blue: their HyAB distance. Distances to the
-// power of 0.7 above 0.4 of the largest are compressed into errors above 0.95 (section 4.1.4). kKnee = kLargest * 0.4^(1/0.7).
+// No two colours of a display are farther apart than its green and its blue: their HyAB distance. Distances to the power
+// of 0.7 above 0.4 of the largest are compressed into errors above 0.95 (section 4.1.4). kKnee = kLargest * 0.4^(1/0.7).
 constexpr double kLargest = 203.301654610878, kKnee = kLargest * 0.270093587460062;
 constexpr float kPower = 0.7f, kKneeShare = 0.4f, kKneeError = 0.95f, kLogKneeError = -0.074000581f;
 

@@ -16,9 +16,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/system/scratch_memory.hpp"
+#include "base/words/constants.hpp"
 #include "compare/highlight_region.hpp"
-#include "core/constants.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

@@ -5,8 +5,8 @@
 // Formula:      peak = max b over all RGB values of the reference (0 if none is positive).
 //               max_rel_peak = max |a - b| / peak; 0 for equal pictures, otherwise infinite if the peak is 0.
 // Input:        scene-linear values, neither exposed nor clipped.
+#include "base/words/constants.hpp"
 #include "compare/metrics/picture_part.hpp"
-#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {

@@ -8,8 +8,8 @@
 // Input:        scene-linear values, neither exposed nor clipped.
 #include <cmath>
 
+#include "base/pictures/image_values.hpp"
 #include "compare/metrics/metric.hpp"
-#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

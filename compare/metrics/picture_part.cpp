@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/pictures/image_values.hpp"
 #include "compare/metrics/shared_work.hpp"
-#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/image.hpp"
-#include "core/scratch_memory.hpp"
+#include "base/pictures/image.hpp"
+#include "base/system/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

@@ -14,11 +14,11 @@
 
 #include <array>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/code_values.hpp"
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/shared_work.hpp"
-#include "core/scratch_memory.hpp"
 
 namespace lobelia {
 namespace {

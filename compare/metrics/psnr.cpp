@@ -8,8 +8,8 @@
 // Differs:      `idiff` ("Peak SNR") takes the brightest value of either picture, which rewards a peak that
 //               is far too high. Its value is ours if the reference has the higher peak, otherwise
 //               ours + 20 log10(the other peak / peak). 8-bit tools take 255.
+#include "base/words/constants.hpp"
 #include "compare/metrics/picture_part.hpp"
-#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {

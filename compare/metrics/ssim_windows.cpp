@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/metrics/shared_work.hpp"
-#include "core/scratch_memory.hpp"
 
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__

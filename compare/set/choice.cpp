@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
+#include "base/pictures/colour.hpp"
+#include "base/words/choice.hpp"
 #include "compare/uncertainty/z_test.hpp"
-#include "core/choice.hpp"
-#include "core/colour.hpp"
 
 namespace lobelia {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 
 namespace lobelia {
 

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/no_resources.hpp"
+#include "base/system/replacement.hpp"
+#include "base/words/text.hpp"
 #include "compare/set/pairing.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/no_resources.hpp"
-#include "core/replacement.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "base/pictures/colour.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "compare/layer_types.hpp"
-#include "core/colour.hpp"
-#include "core/error.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/records/project.hpp"
 #include "compare/layers.hpp"
 #include "compare/set/choice.hpp"
 #include "compare/set/noise_files.hpp"
 #include "compare/set/pairing.hpp"
 #include "compare/set/picture_parts.hpp"
-#include "records/project.hpp"
 
 namespace lobelia {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "compare/require_same_size.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/words/text.hpp"
 #include "compare/uncertainty/noise_layers.hpp"
-#include "core/image_io.hpp"
-#include "core/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 

@@ -9,11 +9,11 @@
 #include <set>
 #include <utility>
 
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "compare/set/csv_table.hpp"
 #include "compare/set/folder_walk.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

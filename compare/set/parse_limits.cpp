@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/set/choice.hpp"
-#include "core/error.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 

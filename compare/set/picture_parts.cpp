@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 
 namespace lobelia {
 namespace {

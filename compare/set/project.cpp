@@ -1,9 +1,9 @@
 // Fills in what a choice leaves open from a project.
 #include <fmt/chrono.h>
 
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "compare/set/job.hpp"
-#include "core/error.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

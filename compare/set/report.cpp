@@ -8,11 +8,11 @@
 #include <cmath>
 #include <set>
 
+#include "base/words/constants.hpp"
+#include "base/words/text.hpp"
 #include "compare/faults.hpp"
 #include "compare/highlights/words.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/constants.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

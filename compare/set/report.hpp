@@ -1,10 +1,10 @@
 // The results of comparing a set of pairs, and their files: JSON, CSV and JUnit's XML.
 #pragma once
 
+#include "base/records/outcome.hpp"
+#include "base/system/error.hpp"
+#include "base/system/sha256.hpp"
 #include "compare/layers.hpp"
-#include "core/error.hpp"
-#include "core/sha256.hpp"
-#include "records/outcome.hpp"
 
 namespace lobelia {
 

@@ -10,15 +10,15 @@
 #include <tuple>
 #include <utility>
 
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/for_each_whole.hpp"
+#include "base/system/replacement.hpp"
+#include "base/system/threads.hpp"
+#include "base/words/text.hpp"
 #include "compare/highlight_region.hpp"
-#include "compare/require_same_size.hpp"
 #include "compare/set/unjudged_limits.hpp"
-#include "core/for_each_whole.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
-#include "core/replacement.hpp"
-#include "core/text.hpp"
-#include "core/threads.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

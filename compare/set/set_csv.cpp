@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "base/words/text.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/set/report.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,8 +1,8 @@
 // A set of comparisons as workflow commands of GitHub Actions, which shows them beside the change.
 #include <fmt/format.h>
 
+#include "base/words/text.hpp"
 #include "compare/set/report.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,8 +7,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "base/words/text.hpp"
 #include "compare/set/report.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/words/text.hpp"
 #include "compare/set/report.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "base/words/text.hpp"
 #include "compare/layer_types.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/pictures/colour.hpp"
+#include "base/words/choice.hpp"
 #include "compare/set/choice.hpp"
-#include "core/choice.hpp"
-#include "core/colour.hpp"
 
 namespace lobelia {
 namespace {

@@ -4,10 +4,10 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <map>
 
+#include "base/words/constants.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/uncertainty/critical.hpp"
-#include "core/constants.hpp"
+#include "profile/critical.hpp"
 
 namespace lobelia {
 namespace {

@@ -19,7 +19,8 @@
 //               replicates do not tell. Its low is the largest of |a - b| - c * error over the values, by the cautious
 //               errors (noise.hpp) and the c that all values together exceed in so many pairs. So a firefly that a
 //               replicate has is no difference.
-// Heavy tails:  noise with fireflies, turned into dark spots by a draw, hardly shows on a dark surface, so its floor would be
+// Heavy tails:  noise with fireflies, turned into dark spots by a draw, hardly shows on a dark surface, so its floor
+// would be
 //               too low. Such a floor is not known: low is 0, but for signed figures and the largest of differences.
 // Exact for:    norms: mae, rmse, mse, max_abs, psnr. The others are nearly norms;
 //               tests/compare/uncertainty_test.cpp measures their coverage, and `lobelia verify verdicts` the verdicts.
@@ -34,9 +35,9 @@
 #include <cmath>
 #include <memory>
 
+#include "base/records/comparison.hpp"
 #include "compare/metrics/metric.hpp"
 #include "compare/uncertainty/noise_draws.hpp"
-#include "records/comparison.hpp"
 
 namespace lobelia {
 
@@ -60,8 +61,8 @@ struct DrawOptions {
 /// All figures of the listed metrics that are neither facts nor about noise, under noise.
 class NoisyFigures {
  public:
-  /// Measures the draws of an input with noise, which has to outlive this. Holds three more pictures. Takes 2 * count times as long
-  /// as the metrics, times the possibilities of what_may_err_together().
+  /// Measures the draws of an input with noise, which has to outlive this. Holds three more pictures. Takes 2 * count
+  /// times as long as the metrics, times the possibilities of what_may_err_together().
   NoisyFigures(std::span<const Metric* const> list, const MetricInput& input,
                const Viewing& viewing, const DrawOptions& options);
   ~NoisyFigures();

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 
-#include "compare/require_same_size.hpp"
-#include "core/contained_reader.hpp"
-#include "core/error.hpp"
-#include "core/picture_colour.hpp"
-#include "core/text.hpp"
+#include "base/pictures/contained_reader.hpp"
+#include "base/pictures/picture_colour.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {

@@ -92,7 +92,8 @@ class ClippedDifferences {
   Image limits_;
 };
 
-/// Both pictures' mean without fireflies. It stays as it is if the two are exchanged, so it tells nothing of the sign of a - b.
+/// Both pictures' mean without fireflies. It stays as it is if the two are exchanged, so it tells nothing of the sign of
+/// a - b.
 Image expectation_without_fireflies(const Image& a, const Image& b) {
   Image mean(a.width(), a.height());
   for (std::size_t i = 0; i < mean.values().size(); ++i)

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "compare/uncertainty/critical.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/words/constants.hpp"
 #include "compare/uncertainty/patterns.hpp"
-#include "core/constants.hpp"
-#include "core/image_values.hpp"
+#include "profile/critical.hpp"
 
 namespace lobelia {
 namespace {
@@ -98,8 +98,8 @@ class Test {
     sum.own_squares += own * own / (noise->freedom + 2);
   }
 
-  /// The standard error of a sum, and Welch's degrees of freedom. Pooled windows overlap, so a sum by the cautious errors has
-  /// at least their freedom, not a sum over pixels.
+  /// The standard error of a sum, and Welch's degrees of freedom. Pooled windows overlap, so a sum by the cautious errors
+  /// has at least their freedom, not a sum over pixels.
   ValueError error_of(const NoisySum& sum) const {
     double independent = sum.cautious, squares = sum.cautious_squares;
     const bool is_known = sum.own > 0 && sum.own * sum.own >= kEnoughFreedom * sum.own_squares;

@@ -21,7 +21,7 @@
 #pragma once
 
 #include "compare/metrics/metric.hpp"
-#include "compare/uncertainty/noise.hpp"
+#include "profile/noise.hpp"
 
 namespace lobelia {
 

@@ -10,15 +10,15 @@
 #include <random>
 #include <thread>
 
-#include "core/byte_locks.hpp"
-#include "core/files.hpp"
-#include "core/host.hpp"
-#include "core/process.hpp"
-#include "core/text.hpp"
-#include "core/version.hpp"
+#include "base/records/cluster.hpp"
+#include "base/records/record.hpp"
+#include "base/system/byte_locks.hpp"
+#include "base/system/files.hpp"
+#include "base/system/host.hpp"
+#include "base/system/process.hpp"
+#include "base/system/version.hpp"
+#include "base/words/text.hpp"
 #include "farm/slurm/slurm_client.hpp"
-#include "records/cluster.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include "core/descriptor.hpp"
+#include "base/system/descriptor.hpp"
 #include "farm/slurm/run_parts.hpp"
 
 namespace lobelia {

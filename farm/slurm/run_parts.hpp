@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/files.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "base/records/cluster.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 #include "farm/slurm/slurm_client.hpp"
 #include "farm/slurm/slurm_run.hpp"
-#include "records/cluster.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 

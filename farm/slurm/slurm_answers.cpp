@@ -4,7 +4,7 @@
 #include <charconv>
 #include <initializer_list>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "farm/slurm/slurm_options.hpp"
 
 namespace lobelia {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 
 extern char** environ;
 

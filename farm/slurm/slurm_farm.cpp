@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/files.hpp"
-#include "core/host.hpp"
-#include "core/removal.hpp"
-#include "core/text.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/system/host.hpp"
+#include "base/system/removal.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -12,7 +12,8 @@ struct SlurmFarmSummary {
   std::filesystem::path directory, gallery;  ///< the farm's, and FarmOptions::gallery
 };
 
-/// run_farm() on nodes that share the directory's and the cache's file system, and `grid_file`. Throws as run_on_slurm() too.
+/// run_farm() on nodes that share the directory's and the cache's file system, and `grid_file`. Throws as run_on_slurm()
+/// too.
 SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const std::filesystem::path& grid_file,
                                    const std::filesystem::path& directory,
                                    const FarmOptions& options, SlurmRunOptions slurm);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "core/byte_locks.hpp"
-#include "core/files.hpp"
-#include "core/removal.hpp"
-#include "core/standard_streams.hpp"
-#include "core/text.hpp"
+#include "base/system/byte_locks.hpp"
+#include "base/system/files.hpp"
+#include "base/system/removal.hpp"
+#include "base/system/standard_streams.hpp"
+#include "base/words/text.hpp"
 #include "farm/slurm/submitter.hpp"
 
 namespace lobelia {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "core/sha256.hpp"
+#include "base/system/sha256.hpp"
 #include "farm/slurm/slurm_answers.hpp"
 #include "farm/slurm/slurm_options.hpp"
 
@@ -29,8 +29,8 @@ struct ChunkRule {
   std::size_t most_chunks = 1000;   ///< with more work the chunks grow
 };
 
-/// Divides jobs into chunks, the costliest first: positions in `jobs`. A batch is spread over no more chunks than it fills, and
-/// small batches share one. The same jobs give the same chunks; phases do not matter.
+/// Divides jobs into chunks, the costliest first: positions in `jobs`. A batch is spread over no more chunks than it
+/// fills, and small batches share one. The same jobs give the same chunks; phases do not matter.
 std::vector<std::vector<std::size_t>> make_chunks(std::span<const SlurmJob> jobs,
                                                   const ChunkRule& rule);
 
@@ -46,8 +46,8 @@ struct SlurmWork {
   std::filesystem::path program;
   /// Jobs without a result that are still to be tried. Called before each round; an empty list ends the run.
   std::function<std::vector<SlurmJob>()> missing;
-  /// Writes the jobs of element NUMBER: positions in the last list of missing(). No number is used twice. Returns the hash of
-  /// what it wrote: the element does nothing else, whoever may write into the directory meanwhile.
+  /// Writes the jobs of element NUMBER: positions in the last list of missing(). No number is used twice. Returns the
+  /// hash of what it wrote: the element does nothing else, whoever may write into the directory meanwhile.
   std::function<Sha256Digest(std::size_t number, std::span<const std::size_t> jobs)> write_chunk;
   /// No node is left for these positions; from now on missing() omits them.
   std::function<void(std::span<const std::size_t> jobs, const std::string& why)> give_up;
@@ -87,10 +87,10 @@ struct SlurmOutcome {
   std::vector<std::string> given_up;  ///< jobs without a node; not in `missing`
 };
 
-/// Runs until nothing is missing or the rounds are used up. Elements that ran out of time or memory get twice as much in the
-/// next round. Nodes that handed work back (farm/chunk.hpp) get no more of it. Once somebody cancels elements, submits nothing
-/// more. Throws Error: kUsage (an option), kOutput (another client has the run, or the directory cannot be written), kEngine
-/// (Slurm is absent or refuses, or the jobs stall), kInterrupted.
+/// Runs until nothing is missing or the rounds are used up. Elements that ran out of time or memory get twice as much in
+/// the next round. Nodes that handed work back (farm/chunk.hpp) get no more of it. Once somebody cancels elements,
+/// submits nothing more. Throws Error: kUsage (an option), kOutput (another client has the run, or the directory cannot
+/// be written), kEngine (Slurm is absent or refuses, or the jobs stall), kInterrupted.
 SlurmOutcome run_on_slurm(const SlurmWork& work, const SlurmRunOptions& options);
 
 /// For cancel_on_interrupt: asks on the terminal. True without one, and at the end of input.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/analytic/analytic.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"

@@ -1,6 +1,6 @@
 // A script that builds the scene in Blender, for people to look at and to go on with. The reference engine is another one
 // (engines/blender), which shows our formulas.
-#include "records/record.hpp"
+#include "base/records/record.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 
 namespace lobelia {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "records/scene.hpp"
+#include "base/records/scene.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {

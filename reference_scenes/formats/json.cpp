@@ -1,5 +1,5 @@
 // A scene as a flat record: everything resolved to numbers, nothing to look up.
-#include "records/record.hpp"
+#include "base/records/record.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 
 namespace lobelia {

@@ -1,14 +1,14 @@
 // Mitsuba 3's scene file. A scene that its parts cannot say exactly is refused, with the reason.
 //
-// The highlight is the BSDF `phong` of Mitsuba 0.6: (n + 2)/(2 pi) cos^n of the angle from the mirror direction, times the specular
-// reflectance (Lafortune and Willems 1994). That is modified Phong with the lobe cosine. Mitsuba 3 has no such BSDF any more, so a
-// scene with a highlight brings it along in phong.py.
+// The highlight is the BSDF `phong` of Mitsuba 0.6: (n + 2)/(2 pi) cos^n of the angle from the mirror direction, times
+// the specular reflectance (Lafortune and Willems 1994). That is modified Phong with the lobe cosine. Mitsuba 3 has no
+// such BSDF any more, so a scene with a highlight brings it along in phong.py.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "reference_scenes/formats/mitsuba.hpp"
 #include "renderer/frame.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/formats/mitsuba.hpp"
 #include "reference_scenes/formats/mitsuba_source.hpp"
 #include "renderer/scene/lights/light_reader.hpp"

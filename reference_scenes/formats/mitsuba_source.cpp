@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 
 namespace lobelia {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 #include "renderer/scene/element_reader.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/xml_source.hpp"
@@ -38,8 +38,9 @@ struct Transform {
 
 class MitsubaSource {
  public:
-  /// Throws Error(kInput) as XmlSource, and unless the root is a <scene>. Fills in the $parameters by their <default>, writes names
-  /// of versions before 2 as later ones (toWorld is to_world), and drops parameters that change no picture of ours.
+  /// Throws Error(kInput) as XmlSource, and unless the root is a <scene>. Fills in the $parameters by their <default>,
+  /// writes names of versions before 2 as later ones (toWorld is to_world), and drops parameters that change no picture
+  /// of ours.
   MitsubaSource(std::string text, std::string file_name);
 
   XmlSource& xml() { return xml_; }

@@ -1,5 +1,5 @@
 // The shading of Precision::kFloat16.
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"

@@ -2,8 +2,8 @@
 //
 //   value(s) = (1 + n s (2 - s) / 2)^-2 where s < 1, else 0
 //
-// As printed, alpha^4 / (c^2 (alpha^2 - 1) + 1)^2 with alpha^2 = 2 / (n + 2), which is Blinn-Phong's width for this exponent:
-// both have the peak (n + 2) / (2 pi) as the distribution of a heightfield. The tail falls like 1 / s^2.
+// As printed, alpha^4 / (c^2 (alpha^2 - 1) + 1)^2 with alpha^2 = 2 / (n + 2), which is Blinn-Phong's width for this
+// exponent: both have the peak (n + 2) / (2 pi) as the distribution of a heightfield. The tail falls like 1 / s^2.
 #include <boost/math/quadrature/tanh_sinh.hpp>
 
 #include "renderer/lobes/lobe.hpp"

@@ -32,8 +32,9 @@ struct LobeParameters {
 
 /// A lobe as text, for `lobelia export`.
 struct LobeText {
-  /// The body of a float32 function of `s` in [0, 1) and `n` that returns the value, in what GLSL, HLSL, OSL and MSL have in
-  /// common: `float NAME = ...;` declares, and there is no `?:`. It may call the functions of shaders/gpu/geometry.txt.
+  /// The body of a float32 function of `s` in [0, 1) and `n` that returns the value, in what GLSL, HLSL, OSL and MSL have
+  /// in common: `float NAME = ...;` declares, and there is no `?:`. It may call the functions of
+  /// renderer/export/gpu/geometry.txt.
   std::string body;
   /// The slope as a formula of n, if the lobe is (1 - slope s)^(n / slope): it gives the energy of every model.
   /// Empty for other lobes, and for cos^n, because the models have its coefficients.

@@ -11,7 +11,7 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
-#include "core/numbers.hpp"
+#include "base/words/numbers.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 HWY_BEFORE_NAMESPACE();

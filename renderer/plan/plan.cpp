@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "core/error.hpp"
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
+#include "base/system/error.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "core/colour.hpp"
+#include "base/pictures/colour.hpp"
 
 namespace lobelia {
 namespace {

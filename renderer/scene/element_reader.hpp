@@ -7,8 +7,8 @@
 #include <array>
 #include <set>
 
-#include "core/text.hpp"
-#include "core/vec.hpp"
+#include "base/words/text.hpp"
+#include "base/words/vec.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/xml_source.hpp"
 

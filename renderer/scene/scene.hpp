@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/highlight.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/formula.hpp"
 #include "renderer/fresnel.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/xml_format.hpp"

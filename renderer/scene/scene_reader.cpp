@@ -1,6 +1,6 @@
 
-#include "core/files.hpp"
-#include "core/shipped_files.hpp"
+#include "base/system/files.hpp"
+#include "base/system/shipped_files.hpp"
 #include "renderer/formula.hpp"
 #include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 

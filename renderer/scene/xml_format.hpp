@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/parameter.hpp"
+#include "renderer/scene/parameter.hpp"
 
 namespace lobelia {
 
@@ -45,7 +45,8 @@ struct XmlElement {
 /// The element of the tag, which must be there.
 const XmlElement& find_element(std::span<const XmlElement> elements, std::string_view tag);
 
-/// An identity rule: the attribute "id" of the elements `keys` differs, and that of the elements `references` is one of theirs.
+/// An identity rule: the attribute "id" of the elements `keys` differs, and that of the elements `references` is one of
+/// theirs.
 struct XmlReferences {
   std::string_view keys, references;
 };

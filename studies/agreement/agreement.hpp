@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image.hpp"
-#include "records/agreement.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/agreement.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "studies/agreement/cases.hpp"

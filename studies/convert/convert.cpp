@@ -6,7 +6,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/ggx.hpp"
 #include "studies/convert/curve.hpp"
 

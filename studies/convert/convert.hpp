@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/svg_chart.hpp"
-#include "records/conversion.hpp"
+#include "base/records/conversion.hpp"
+#include "base/words/svg_chart.hpp"
 #include "studies/convert/curve.hpp"
 
 namespace lobelia::conversion {

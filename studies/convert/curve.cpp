@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/words/constants.hpp"
 #include "compare/metrics/ciede2000.hpp"
-#include "core/constants.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/ggx.hpp"
 #include "renderer/lobe_properties.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::conversion {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/host.hpp"
+#include "base/system/error.hpp"
+#include "base/system/host.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia::cost {

@@ -49,7 +49,8 @@ struct Benchmark {
 };
 
 std::span<const Benchmark> benchmarks();
-/// Those of these names, or without names all that have something to measure. Throws Error(kUsage) for one that needs scenes.
+/// Those of these names, or without names all that have something to measure. Throws Error(kUsage) for one that needs
+/// scenes.
 std::vector<const Benchmark*> chosen_benchmarks(const std::vector<std::string>& names,
                                                 bool has_scenes);
 /// The tables of each, with their fronts.

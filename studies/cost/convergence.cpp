@@ -4,9 +4,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/constants.hpp"
-#include "core/error.hpp"
-#include "core/image_values.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/error.hpp"
+#include "base/words/constants.hpp"
 
 namespace lobelia::cost {
 

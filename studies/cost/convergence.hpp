@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia::cost {

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <random>
 
-#include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "base/system/error.hpp"
+#include "base/system/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/vector.hpp"
 #include "renderer/catalogue_record.hpp"

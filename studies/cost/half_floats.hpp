@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/cost/table.hpp"
 

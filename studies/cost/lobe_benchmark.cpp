@@ -7,9 +7,9 @@
 #include <cstring>
 #include <memory>
 
-#include "core/constants.hpp"
-#include "core/error.hpp"
-#include "core/error_time_chart.hpp"
+#include "base/system/error.hpp"
+#include "base/words/constants.hpp"
+#include "base/words/error_time_chart.hpp"
 #include "renderer/catalogue_record.hpp"
 #include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_errors.hpp"

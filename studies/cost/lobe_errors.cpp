@@ -12,9 +12,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/constants.hpp"
-#include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "base/system/error.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/words/constants.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/number_limits.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "records/cost.hpp"
+#include "base/records/cost.hpp"
 #include "studies/cost/lobe_variants.hpp"
 
 namespace lobelia::cost {

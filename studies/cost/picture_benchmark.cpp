@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/accuracy.hpp"
-#include "accuracy/lobe_candidates.hpp"
-#include "core/error.hpp"
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
+#include "base/system/error.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
+#include "studies/accuracy/accuracy.hpp"
+#include "studies/accuracy/lobe_candidates.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/error_time_chart.hpp"
-#include "core/files.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/words/error_time_chart.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::cost {

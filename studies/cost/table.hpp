@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/timing.hpp"
-#include "records/cost.hpp"
+#include "base/records/cost.hpp"
+#include "base/system/timing.hpp"
 
 namespace lobelia::cost {
 

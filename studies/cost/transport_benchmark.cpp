@@ -8,9 +8,9 @@
 #include <cmath>
 #include <optional>
 
-#include "core/constants.hpp"
-#include "core/error.hpp"
-#include "core/error_time_chart.hpp"
+#include "base/system/error.hpp"
+#include "base/words/constants.hpp"
+#include "base/words/error_time_chart.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/render_record.hpp"
 #include "studies/cost/convergence.hpp"

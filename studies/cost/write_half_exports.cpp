@@ -2,9 +2,9 @@
 // C++ in which min16float is an emulated half float, and a line for each function. half_floats.cpp reads both.
 #include <fmt/format.h>
 
-#include "core/files.hpp"
-#include "shaders/export.hpp"
-#include "shaders/names.hpp"
+#include "base/system/files.hpp"
+#include "renderer/export/export.hpp"
+#include "renderer/export/names.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "records/verify.hpp"
+#include "base/records/verify.hpp"
 
 namespace lobelia::highlights {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/for_each_whole.hpp"
+#include "base/system/for_each_whole.hpp"
 
 namespace lobelia::paper {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "records/paper.hpp"
+#include "base/records/paper.hpp"
 #include "reference_scenes/engines/analytic/formulas/printed.hpp"
 
 namespace lobelia::paper {

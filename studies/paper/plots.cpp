@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/files.hpp"
-#include "core/for_each_whole.hpp"
+#include "base/system/files.hpp"
+#include "base/system/for_each_whole.hpp"
 #include "studies/paper/energy.hpp"
 
 namespace lobelia::paper {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/svg_chart.hpp"
+#include "base/words/svg_chart.hpp"
 #include "studies/paper/claim.hpp"
 
 namespace lobelia::paper {

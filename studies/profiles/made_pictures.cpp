@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "core/constants.hpp"
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/scene/scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/profile/blob.hpp"
+#include "profile/blob.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "studies/table.hpp"
 

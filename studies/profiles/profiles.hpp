@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/profile/profile.hpp"
-#include "records/profile.hpp"
-#include "records/verify.hpp"
+#include "base/records/profile.hpp"
+#include "base/records/verify.hpp"
+#include "profile/profile.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::profile_study {

@@ -7,8 +7,8 @@
 
 namespace {
 
-/// The method may lose its way or go in circles where inequalities are far apart in size or many are met at once, and then find
-/// it from another scale or by the dual method.
+/// The method may lose its way or go in circles where inequalities are far apart in size or many are met at once, and
+/// then find it from another scale or by the dual method.
 bool solve(glp_prob* lp) {
   constexpr int kMostSteps = 1000;  // ten times what is usual
   glp_smcp options;

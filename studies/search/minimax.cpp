@@ -10,8 +10,8 @@
 #include <optional>
 #include <tuple>
 
-#include "core/error.hpp"
-#include "core/module.hpp"
+#include "base/system/error.hpp"
+#include "base/system/module.hpp"
 #include "studies/search/linear_program.hpp"
 
 namespace lobelia::search {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pictures/half.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "compare/metrics/ciede2000.hpp"
-#include "core/error.hpp"
-#include "core/half.hpp"
-#include "core/text.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/minimax.hpp"
 

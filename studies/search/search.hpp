@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/timing.hpp"
-#include "records/lobe_search.hpp"
+#include "base/records/lobe_search.hpp"
+#include "base/system/timing.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/shape.hpp"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <ranges>
 
-#include "core/error.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 
 namespace lobelia::shader_check {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "renderer/highlight.hpp"
-#include "shaders/run_shaders.hpp"
 #include "studies/shader_check/points.hpp"
+#include "studies/shader_check/run_shaders.hpp"
 
 namespace lobelia::shader_check {
 

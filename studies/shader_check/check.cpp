@@ -8,13 +8,13 @@
 #include <numbers>
 #include <set>
 
-#include "core/error.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
-#include "shaders/program_text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 #include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/points.hpp"
+#include "studies/shader_check/program_text.hpp"
 
 namespace lobelia::shader_check {
 namespace {

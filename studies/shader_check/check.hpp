@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "core/image.hpp"
-#include "records/shader_check.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/shader_check.hpp"
 #include "renderer/highlight.hpp"
-#include "shaders/run_shaders.hpp"
 #include "studies/shader_check/arguments.hpp"
+#include "studies/shader_check/run_shaders.hpp"
 
 namespace lobelia::shader_check {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "core/error.hpp"
-#include "core/text.hpp"
-#include "shaders/export.hpp"
-#include "shaders/names.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
+#include "renderer/export/export.hpp"
+#include "renderer/export/names.hpp"
 
 namespace lobelia::shader_check {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "records/shader_check.hpp"
+#include "base/records/shader_check.hpp"
 #include "studies/shader_check/points.hpp"
 
 namespace lobelia::shader_check {

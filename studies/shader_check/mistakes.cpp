@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/colour.hpp"
-#include "core/half.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/half.hpp"
 #include "renderer/models/smith.hpp"
 
 namespace lobelia::shader_check {

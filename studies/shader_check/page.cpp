@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/version.hpp"
+#include "base/words/base64.hpp"
+#include "base/words/html.hpp"
+#include "base/words/svg_chart.hpp"
 #include "compare/compare.hpp"
-#include "core/base64.hpp"
-#include "core/colour.hpp"
-#include "core/html.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
-#include "core/svg_chart.hpp"
-#include "core/version.hpp"
 #include "studies/shader_check/check.hpp"
 
 namespace lobelia {

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 #include "renderer/highlight.hpp"
 
 namespace lobelia::shader_check {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/numbers.hpp"
+#include "base/words/numbers.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/table.hpp"
 

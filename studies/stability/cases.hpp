@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/constants.hpp"
-#include "records/stability.hpp"
+#include "base/records/stability.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::stability {

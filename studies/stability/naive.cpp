@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/half.hpp"
+#include "base/pictures/half.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "reference_scenes/engines/analytic/formulas/vector.hpp"

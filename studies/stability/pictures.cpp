@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/colour.hpp"
-#include "core/image_io.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_io.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/render.hpp"
 #include "studies/stability/naive.hpp"

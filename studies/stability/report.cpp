@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/for_each_whole.hpp"
-#include "core/interrupt.hpp"
+#include "base/system/for_each_whole.hpp"
+#include "base/system/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "studies/stability/naive.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/kernels/kernels.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/error.hpp"
 #include "compare/uncertainty/noise_draws.hpp"
-#include "core/error.hpp"
 #include "renderer/render.hpp"
 #include "studies/agreement/example_scenes.hpp"
 

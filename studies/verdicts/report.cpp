@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::verdicts {

@@ -7,10 +7,10 @@
 #include <atomic>
 #include <boost/math/distributions/binomial.hpp>
 
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
 #include "compare/compare.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/interrupt.hpp"
 
 namespace lobelia::verdicts {
 namespace {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image.hpp"
-#include "core/svg_chart.hpp"
-#include "records/verdicts.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/verdicts.hpp"
+#include "base/words/svg_chart.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia::verdicts {

@@ -1,8 +1,8 @@
-#include "accuracy/accuracy.hpp"
+#include "studies/accuracy/accuracy.hpp"
 
-#include "accuracy/lobe_candidates.hpp"
-#include "core/image_values.hpp"
+#include "base/pictures/image_values.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "studies/accuracy/lobe_candidates.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"

@@ -1,4 +1,4 @@
-#include "accuracy/lobe_candidates.hpp"
+#include "studies/accuracy/lobe_candidates.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::accuracy {

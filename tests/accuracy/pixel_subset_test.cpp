@@ -1,4 +1,4 @@
-#include "accuracy/accuracy.hpp"
+#include "studies/accuracy/accuracy.hpp"
 
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"

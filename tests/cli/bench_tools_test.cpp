@@ -1,9 +1,9 @@
 // The programs of `make bench` and `make bench-compare`, without a word on how fast anything is.
 #include <fmt/format.h>
 
-#include "core/text.hpp"
-#include "records/bench.hpp"
-#include "records/record.hpp"
+#include "base/records/bench.hpp"
+#include "base/records/record.hpp"
+#include "base/words/text.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/test.hpp"
 

@@ -1,5 +1,5 @@
 // lobelia check-shader as a user runs it, and its page in docs/.
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "studies/shader_check/mistakes.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"

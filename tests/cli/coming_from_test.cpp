@@ -1,7 +1,7 @@
 // The commands in docs/coming_from.md.
 #include <regex>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 
 namespace lobelia {

@@ -1,8 +1,8 @@
 // One language for all commands: what an option means, and what is said of words that are none.
-#include "cli/commands.hpp"
-#include "cli/common_options.hpp"
-#include "cli/manual_tables.hpp"
-#include "core/text.hpp"
+#include "base/words/text.hpp"
+#include "program/command/commands.hpp"
+#include "program/command/common_options.hpp"
+#include "program/command/manual/manual_tables.hpp"
 #include "run_lobelia.hpp"
 #include "tests/test.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "core/replacement.hpp"
+#include "base/system/replacement.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 
 namespace lobelia {

@@ -1,8 +1,8 @@
 // lobelia compare with folders, second references and its reports, as a user runs it.
 #include <pugixml.hpp>
 
-#include "core/image_io.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/words/text.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 #include "tests/test.hpp"
 

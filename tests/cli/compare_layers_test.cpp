@@ -1,8 +1,8 @@
 // `lobelia compare` on pictures with layers, alpha and channels of other names.
 #include <nlohmann/json.hpp>
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
-#include "tests/core/picture_files.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/test.hpp"
 

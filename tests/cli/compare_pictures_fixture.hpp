@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/cli/run_lobelia.hpp"
-#include "tests/core/picture_files.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::fixtures {

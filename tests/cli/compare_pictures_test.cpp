@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/pictures/image_io.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/image_io.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
-#include "tests/core/picture_files.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

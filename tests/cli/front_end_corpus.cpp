@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "core/colour.hpp"
-#include "core/image_io.hpp"
-#include "tests/core/picture_files.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_io.hpp"
+#include "tests/base/picture_files.hpp"
 
 namespace lobelia::fixtures {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/pictures/image_io.hpp"
+#include "base/records/record.hpp"
 #include "compare/set/choice.hpp"
-#include "core/image_io.hpp"
 #include "farm/make_result.hpp"
-#include "records/record.hpp"
 #include "tests/cli/front_end_corpus.hpp"
 #include "tests/cli/front_end_library.hpp"
 #include "tests/cli/run_lobelia.hpp"

@@ -1,8 +1,8 @@
 // Hostile and odd pictures, made here, given to every command that reads pictures.
 #include <fmt/format.h>
 
+#include "tests/base/format_samples.hpp"
 #include "tests/cli/run_lobelia.hpp"
-#include "tests/core/format_samples.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 

@@ -8,7 +8,7 @@
 #include <csignal>
 #include <thread>
 
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
 #include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
 #include "tests/test.hpp"

@@ -1,8 +1,8 @@
 // Pictures with noise, from rendering to a verdict.
+#include "base/pictures/image_io.hpp"
 #include "compare/uncertainty/noise_draws.hpp"
-#include "core/image_io.hpp"
 #include "run_lobelia.hpp"
-#include "tests/core/picture_files.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 

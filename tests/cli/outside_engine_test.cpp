@@ -1,5 +1,6 @@
-// Engines of the user's own in `lobelia farm`: programs that behave, programs that do not, and pictures that are there already.
-#include "core/text.hpp"
+// Engines of the user's own in `lobelia farm`: programs that behave, programs that do not, and pictures that are there
+// already.
+#include "base/words/text.hpp"
 #include "tests/cli/page_commands.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"

@@ -1,8 +1,8 @@
 // The commands that README, the tutorials and the how-to pages mark as to be run do run.
 #include <cctype>
 
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "tests/cli/page_commands.hpp"
 #include "tests/test.hpp"
 

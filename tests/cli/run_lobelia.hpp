@@ -1,8 +1,8 @@
 // Runs the program as a user does.
 #pragma once
 
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/test.hpp"
 

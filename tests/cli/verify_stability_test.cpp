@@ -1,4 +1,4 @@
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"

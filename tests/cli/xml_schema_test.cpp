@@ -1,5 +1,5 @@
 // The XML Schemas of scene and grid files: every file that the program reads is valid, and common mistakes are not.
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "farm/grid.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/cli/page_commands.hpp"

@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "tests/compare/spots.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"

@@ -1,9 +1,9 @@
 // Regions of highlights to a fraction of a pixel, and the steps of the numbers in a picture's file.
-#include "compare/profile/contour.hpp"
+#include "profile/contour.hpp"
 
-#include "compare/profile/stored_steps.hpp"
-#include "core/colour.hpp"
-#include "core/half.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/half.hpp"
+#include "profile/stored_steps.hpp"
 #include "tests/compare/spots.hpp"
 #include "tests/test.hpp"
 

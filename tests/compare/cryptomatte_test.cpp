@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/records/manifest.hpp"
 #include "compare/layer_sensitivity.hpp"
-#include "records/manifest.hpp"
 #include "tests/compare/layer_files.hpp"
 
 namespace lobelia {

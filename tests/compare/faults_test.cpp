@@ -1,10 +1,10 @@
 // Faults are named where they were made, in random pictures, and nowhere else.
 #include "compare/faults.hpp"
 
+#include "base/pictures/colour.hpp"
+#include "base/pictures/half.hpp"
+#include "base/pictures/image_values.hpp"
 #include "compare/set/report.hpp"
-#include "core/colour.hpp"
-#include "core/half.hpp"
-#include "core/image_values.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
 

@@ -1,9 +1,9 @@
 // LDR-FLIP and HDR-FLIP against values of NVIDIA's tool.
+#include "base/system/error.hpp"
 #include "compare/compare.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/maps/flip_histogram.hpp"
 #include "compare/metrics/flip_error.hpp"
-#include "core/error.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
 

@@ -15,9 +15,9 @@ struct Noise {
 };
 constexpr Noise kNoises[] = {{0.02, 0}, {0.005, 0.05}, {0.08, 0}, {0.03, 0.03}};
 
-/// How often each figure of a noisy highlight is within two standard errors of the truth. Eight highlights, each with so many
-/// draws of noise. A Gaussian's truth is its formula's; a GGX tail reaches into its background's ring, so there the truth is
-/// the same highlight without noise. So it is with the energy, which ends with a disc.
+/// How often each figure of a noisy highlight is within two standard errors of the truth. Eight highlights, each with so
+/// many draws of noise. A Gaussian's truth is its formula's; a GGX tail reaches into its background's ring, so there the
+/// truth is the same highlight without noise. So it is with the energy, which ends with a disc.
 std::array<double, kFigures> coverage(bool given, int draws) {
   std::mt19937 random(20251121);
   std::normal_distribution<double> normal;

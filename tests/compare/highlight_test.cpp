@@ -1,10 +1,10 @@
 // The highlight is judged by itself: what the black around it hides, and what it must not be blamed for.
+#include "base/pictures/image_values.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/sensitivity.hpp"
 #include "compare/set/report.hpp"
-#include "core/image_values.hpp"
 #include "renderer/render.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/profiled_scene.hpp"

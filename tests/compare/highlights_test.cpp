@@ -1,5 +1,5 @@
 // All highlights of a picture, robust and with standard errors.
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "tests/compare/spots.hpp"
 #include "tests/test.hpp"
 

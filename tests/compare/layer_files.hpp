@@ -1,11 +1,11 @@
 // Files with layers, compared layer by layer.
 #pragma once
 
+#include "base/pictures/image_io.hpp"
+#include "base/system/error.hpp"
 #include "compare/layer_types.hpp"
 #include "compare/layers.hpp"
-#include "core/error.hpp"
-#include "core/image_io.hpp"
-#include "tests/core/picture_files.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::fixtures {

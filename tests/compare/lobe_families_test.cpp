@@ -1,7 +1,7 @@
 // Which family of lobes a highlight belongs to, when camera and light are known.
-#include "compare/profile/lobe_fit.hpp"
-#include "core/constants.hpp"
-#include "core/vec.hpp"
+#include "base/words/constants.hpp"
+#include "base/words/vec.hpp"
+#include "profile/lobe_fit.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,4 +1,4 @@
-#include "compare/profile/lobe_fit.hpp"
+#include "profile/lobe_fit.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,10 +1,10 @@
 // Pictures of differences against the metrics that they spread out, and their colours against the published
 // tables.
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/image_values.hpp"
+#include "base/system/error.hpp"
 #include "compare/compare.hpp"
 #include "compare/maps/difference_map.hpp"
-#include "core/error.hpp"
-#include "core/image_io.hpp"
-#include "core/image_values.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
 

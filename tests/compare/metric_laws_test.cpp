@@ -1,10 +1,10 @@
 // Laws that every metric of the catalogue keeps: a newly listed metric is tested by these.
 #include <oneapi/tbb/global_control.h>
 
+#include "base/system/scratch_memory.hpp"
 #include "compare/highlights/find.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/picture_part.hpp"
-#include "core/scratch_memory.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
 

@@ -1,7 +1,7 @@
 // Draws of the noise that replicates or standard errors tell.
 #include "compare/uncertainty/noise_draws.hpp"
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "tests/compare/noisy_pictures.hpp"
 #include "tests/test.hpp"
 

@@ -1,11 +1,11 @@
 // Noise in layers of a picture's file, as renderers write them, from samples of a known distribution.
 #include "compare/uncertainty/noise_layers.hpp"
 
+#include "base/pictures/image_io.hpp"
+#include "base/pictures/picture_colour.hpp"
+#include "base/system/error.hpp"
 #include "compare/compare.hpp"
-#include "core/error.hpp"
-#include "core/image_io.hpp"
-#include "core/picture_colour.hpp"
-#include "tests/core/picture_files.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,5 +1,5 @@
-#include "compare/profile/peak.hpp"
-#include "core/constants.hpp"
+#include "profile/peak.hpp"
+#include "base/words/constants.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

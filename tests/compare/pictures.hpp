@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/pictures/image.hpp"
 #include "compare/metrics/metric.hpp"
 #include "compare/uncertainty/z_test.hpp"
-#include "core/image.hpp"
 
 namespace lobelia::fixtures {
 

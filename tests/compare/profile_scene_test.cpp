@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "tests/compare/profiled_scene.hpp"

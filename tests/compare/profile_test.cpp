@@ -1,4 +1,4 @@
-#include "compare/profile/profile.hpp"
+#include "profile/profile.hpp"
 
 #include "tests/json.hpp"
 #include "tests/test.hpp"

@@ -1,6 +1,6 @@
 // Folders of pictures: pairing by name.
+#include "base/system/files.hpp"
 #include "compare/set/pairing.hpp"
-#include "core/files.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "compare/profile/blob.hpp"
+#include "profile/blob.hpp"
 
 namespace lobelia {
 

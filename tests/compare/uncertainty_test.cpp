@@ -3,11 +3,11 @@
 
 #include <boost/math/distributions/binomial.hpp>
 
+#include "base/system/error.hpp"
+#include "base/words/constants.hpp"
 #include "compare/compare.hpp"
-#include "compare/uncertainty/critical.hpp"
 #include "compare/uncertainty/z_test.hpp"
-#include "core/constants.hpp"
-#include "core/error.hpp"
+#include "profile/critical.hpp"
 #include "tests/compare/noisy_pictures.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/test.hpp"

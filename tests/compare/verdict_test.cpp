@@ -1,10 +1,10 @@
 #include <type_traits>
 
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "compare/compare.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"

@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "farm/result_cache.hpp"
 #include "tests/test.hpp"
 

@@ -1,6 +1,6 @@
 // The farm with the real engines.
+#include "base/pictures/image_io.hpp"
 #include "compare/compare.hpp"
-#include "core/image_io.hpp"
 #include "farm/make_result.hpp"
 #include "farm_fixture.hpp"
 #include "reference_scenes/engine.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "farm/farm.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"

@@ -1,5 +1,5 @@
 #include "farm_fixture.hpp"
-#include "tests/core/unflushed_names.hpp"
+#include "tests/base/unflushed_names.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

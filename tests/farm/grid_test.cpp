@@ -1,4 +1,4 @@
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/farm/grid_text.hpp"

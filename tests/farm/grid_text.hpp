@@ -1,8 +1,8 @@
 // Grid files from the text of their elements.
 #pragma once
 
-#include "core/error.hpp"
-#include "core/files.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "farm/grid.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/test.hpp"

@@ -3,8 +3,8 @@
 #include <latch>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 

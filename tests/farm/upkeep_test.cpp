@@ -1,6 +1,6 @@
 #include "farm/upkeep.hpp"
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
 #include "farm_fixture.hpp"

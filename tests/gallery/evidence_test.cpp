@@ -1,11 +1,11 @@
 // A gallery shows "pass" only of pictures and records that are as the farm wrote them.
 #include <regex>
 
-#include "core/image_io.hpp"
-#include "core/text.hpp"
-#include "gallery/checked_cell.hpp"
-#include "gallery/gallery.hpp"
-#include "records/comparison.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/records/comparison.hpp"
+#include "base/words/text.hpp"
+#include "gallery/cells/checked_cell.hpp"
+#include "gallery/site/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/more_samples.hpp"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "core/image_io.hpp"
-#include "core/sha256.hpp"
-#include "records/comparison.hpp"
-#include "records/profile.hpp"
-#include "records/render.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/records/comparison.hpp"
+#include "base/records/profile.hpp"
+#include "base/records/render.hpp"
+#include "base/system/sha256.hpp"
 
 namespace lobelia::gallery {
 namespace fs = std::filesystem;

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/files.hpp"
-#include "gallery/metrics.hpp"
-#include "records/farm.hpp"
-#include "records/record.hpp"
+#include "base/records/farm.hpp"
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "gallery/cells/metrics.hpp"
 
 namespace lobelia::gallery {
 

@@ -1,4 +1,4 @@
-#include "gallery/grid_layout.hpp"
+#include "gallery/pages/grid_layout.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::gallery {

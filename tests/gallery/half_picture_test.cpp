@@ -1,5 +1,5 @@
 // Float pictures as text: what is read back is what was written, to the bits that were kept.
-#include "gallery/half_picture.hpp"
+#include "gallery/packed/half_picture.hpp"
 
 #include <zlib.h>
 

@@ -2,13 +2,13 @@
 #include <atomic>
 #include <cerrno>
 
-#include "core/colour.hpp"
-#include "core/error.hpp"
-#include "core/image_io.hpp"
-#include "core/no_resources.hpp"
-#include "gallery/derived_pictures.hpp"
-#include "gallery/gallery.hpp"
-#include "records/comparison.hpp"
+#include "base/pictures/colour.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/records/comparison.hpp"
+#include "base/system/error.hpp"
+#include "base/system/no_resources.hpp"
+#include "gallery/site/derived_pictures.hpp"
+#include "gallery/site/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/test.hpp"
 

@@ -1,4 +1,4 @@
-#include "gallery/gallery.hpp"
+#include "gallery/site/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/test.hpp"

@@ -1,7 +1,7 @@
 // Texts of records as pages show them.
-#include "gallery/page_text.hpp"
+#include "gallery/pages/page_text.hpp"
 
-#include "gallery/page.hpp"
+#include "gallery/pages/page.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::gallery {

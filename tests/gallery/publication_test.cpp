@@ -1,19 +1,19 @@
 // A gallery for others tells nothing of the machine, in any form, and RUN stays as it is.
-#include "gallery/publication.hpp"
+#include "gallery/site/publication.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
 
-#include "core/base64.hpp"
-#include "core/error.hpp"
-#include "core/sha256.hpp"
-#include "gallery/checked_cell.hpp"
-#include "gallery/published_texts.hpp"
-#include "gallery/publisher.hpp"
-#include "records/cost.hpp"
-#include "records/render.hpp"
+#include "base/records/cost.hpp"
+#include "base/records/render.hpp"
+#include "base/system/error.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/base64.hpp"
+#include "gallery/cells/checked_cell.hpp"
+#include "gallery/site/published_texts.hpp"
+#include "gallery/site/publisher.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/test.hpp"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 
 namespace lobelia::gallery {
 namespace fs = std::filesystem;

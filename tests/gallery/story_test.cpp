@@ -1,6 +1,6 @@
 // The words of a cell's page and of the index.
-#include "gallery/cell_page.hpp"
-#include "gallery/gallery.hpp"
+#include "gallery/cells/cell_page.hpp"
+#include "gallery/site/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/test.hpp"

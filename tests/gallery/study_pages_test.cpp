@@ -1,8 +1,8 @@
 // The pages of cost, cheapest lobes and speed, from records that anybody may have written.
-#include "gallery/gallery.hpp"
-#include "records/bench.hpp"
-#include "records/cost.hpp"
-#include "records/lobe_search.hpp"
+#include "base/records/bench.hpp"
+#include "base/records/cost.hpp"
+#include "base/records/lobe_search.hpp"
+#include "gallery/site/gallery.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 #include "tests/test.hpp"

@@ -75,7 +75,8 @@ void add_lobe(const fs::path& tree) {
   lobe.list("renderer/lobes/catalogue.hpp", "schlick.hpp\"\n",
             "#include \"renderer/lobes/throwaway.hpp\"\n");
   lobe.list("renderer/lobes/catalogue.hpp", "SchlickLobe", ", ThrowawayLobe");
-  lobe.copy("shaders/povray/lobes/schlick.inc", "shaders/povray/lobes/NAME.inc", renames);
+  lobe.copy("renderer/export/povray/lobes/schlick.inc", "renderer/export/povray/lobes/NAME.inc",
+            renames);
   lobe.list("reference_scenes/engines/blender/blender_formulas.py", "LOBES = {\n",
             "    \"throwaway\": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),\n"
             "                      lambda nodes, s, n, k: schlick_node(nodes, s, n),\n"
@@ -93,7 +94,8 @@ void add_model(const fs::path& tree) {
   model.list("renderer/models/catalogue.hpp", "modified_phong.hpp\"\n",
              "#include \"renderer/models/throwaway.hpp\"\n");
   model.list("renderer/models/catalogue.hpp", "TypeList<PhongRdf, ModifiedPhong", ", Throwaway");
-  model.copy("shaders/povray/models/modified_phong.inc", "shaders/povray/models/NAME.inc", renames);
+  model.copy("renderer/export/povray/models/modified_phong.inc",
+             "renderer/export/povray/models/NAME.inc", renames);
   model.list("reference_scenes/engines/blender/blender_formulas.py", "MODELS = {\n",
              "    \"throwaway\": Model(False, False, 1.0, True, 1,\n"
              "                       lambda n, tail: (n + 2) / (2 * math.pi),\n"
@@ -159,20 +161,20 @@ void add_engine(const fs::path& tree) {
 
 void add_command(const fs::path& tree) {
   Addition command(tree, "a command");
-  command.copy("cli/scene_format.cpp", "cli/NAME.cpp",
+  command.copy("program/command/scene_format.cpp", "program/command/NAME.cpp",
                {{"add_scene_format", "add_throwaway"}, {"\"scene-format\"", "\"throwaway\""}});
-  command.list("cli/commands.hpp", "command(scene_format)", " command(throwaway)");
+  command.list("program/command/commands.hpp", "command(scene_format)", " command(throwaway)");
   command.expect_as_documented();
 }
 
 void add_view(const fs::path& tree) {
   Addition view(tree, "a view of the gallery");
-  view.copy("gallery/paper_page.cpp", "gallery/NAME_page.cpp",
+  view.copy("gallery/pages/paper_page.cpp", "gallery/pages/NAME_page.cpp",
             {{"paper_view", "throwaway_view"},
              {"paper_page", "throwaway_page"},
              {"\"paper\", \"Paper\", \"paper.html\"",
               "\"throwaway\", \"Throwaway\", \"throwaway.html\""}});
-  view.list("gallery/views.cpp", "VIEW(paper)", " VIEW(throwaway)");
+  view.list("gallery/pages/views.cpp", "VIEW(paper)", " VIEW(throwaway)");
   view.copy("gallery/web/src/views/paper.ts", "gallery/web/src/views/NAME.ts",
             {{"function paper(", "function throwaway("}});
   view.expect_as_documented();

@@ -1,5 +1,5 @@
-// The pages: what they say of the source, where every link and anchor leads, the index of docs/, the beginning of README, and
-// the site that `make docs` makes of them.
+// The pages: what they say of the source, where every link and anchor leads, the index of docs/, the beginning of README,
+// and the site that `make docs` makes of them.
 #include <cctype>
 #include <regex>
 
@@ -27,7 +27,7 @@ std::set<std::string> variables(const fs::path& root) {
       name(R"re("([A-Z_]+)")re"), ours(R"re("[^"\n]*\$(LOBELIA_[A-Z_]+))re");
   std::set<std::string> found;
   for (const fs::path& file : project_files(root)) {
-    if (!is_cpp(file) || *file.begin() == "tests" || *file.begin() == "bench") continue;
+    if (!is_cpp(file) || *file.begin() == "tests") continue;
     const std::string text = read(root / file);
     found.merge(matches(text, ours));
     if (text.find("getenv(") == text.npos) continue;
@@ -47,7 +47,8 @@ TEST(Environment, ThePageNamesEveryVariableThatTheProgramReads) {
 
 TEST(Environment, ThePageNamesEveryExitCode) {
   const std::string page = read(kRoot / "docs/environment.md");
-  const auto codes = matches(read(kRoot / "core/error.hpp"), std::regex(R"re(\n  k\w+ = (\d+))re"));
+  const auto codes =
+      matches(read(kRoot / "base/system/error.hpp"), std::regex(R"re(\n  k\w+ = (\d+))re"));
   EXPECT_GT(codes.size(), 10u);
   for (const std::string& code : codes) EXPECT_THAT(page, HasSubstr("| `" + code + "` |"));
 }
@@ -169,7 +170,7 @@ TEST(Readme, IsShortAndHasACommandEarly) {
 }
 
 Ran make_site(const fs::path& root, const fs::path& site) {
-  return run("LOBELIA_PROGRAM=" + quoted(LOBELIA_PROGRAM) + " " + quoted(root / "scripts/docs") +
+  return run("LOBELIA_PROGRAM=" + quoted(LOBELIA_PROGRAM) + " " + quoted(root / "tools/docs") +
              " " + quoted(site));
 }
 
@@ -204,7 +205,7 @@ TEST_F(Site, TakesNoOtherFoldersPlace) {
 }
 
 TEST_F(Site, IsRefusedWithADeadLinkOrAForeignFile) {
-  for (const char* part : {"scripts/docs", "scripts/site"}) {
+  for (const char* part : {"tools/docs", "tools/site"}) {
     fs::create_directories((scratch_ / part).parent_path());
     fs::copy(kRoot / part, scratch_ / part, fs::copy_options::recursive);
   }

@@ -1,4 +1,4 @@
-// scripts/gallery with a program that only writes down how it was called.
+// tools/gallery with a program that only writes down how it was called.
 #include <sys/wait.h>
 
 #include "lobelia_paths.hpp"
@@ -25,7 +25,7 @@ class GalleryScript : public ::testing::Test {
             "echo \"$1|$2|$3|$4\"\n[ $1 != farm ] || mkdir -p \"$4\"\nexit " +
             std::to_string(farm_status) + "\n");
     fs::permissions(program, fs::perms::owner_all);
-    const std::string command = quoted(LOBELIA_SOURCE_DIR "/scripts/gallery") + " " +
+    const std::string command = quoted(LOBELIA_SOURCE_DIR "/tools/gallery") + " " +
                                 quoted(program) + " grid.xml " + quoted(scratch_ / "a place") +
                                 " > " + quoted(scratch_ / "said") + " 2> " +
                                 quoted(scratch_ / "told");

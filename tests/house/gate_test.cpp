@@ -1,5 +1,5 @@
-// core/leave.hpp is the gate for what files of others say. Whoever gives leave, starts a program, or opens a file where
-// names may come from such a file is in a list here, with the reason why it needs no gate or has passed it.
+// base/system/leave.hpp is the gate for what files of others say. Whoever gives leave, starts a program, or opens a file
+// where names may come from such a file is in a list here, with the reason why it needs no gate or has passed it.
 #include <regex>
 
 #include "tests/house/tree.hpp"
@@ -18,11 +18,13 @@ struct Allowed {
 
 const std::vector<Allowed>& allowed_places() {
   static const std::vector<Allowed> all{
-      {"core/contained_reader.cpp", "our own decoder", {"spawn({.arguments = {companion_file("}},
-      {"core/picture_reader.cpp", "a copy of itself", {"child = ::fork()"}},
-      {"core/process.cpp", "is how all programs start", {"spawn(request)"}},
-      {"core/process_keeper.cpp", "the same", {"pid = ::vfork()", "::execv(arguments[0]"}},
-      {"core/spawn.cpp",
+      {"base/pictures/contained_reader.cpp",
+       "our own decoder",
+       {"spawn({.arguments = {companion_file("}},
+      {"base/pictures/picture_reader.cpp", "a copy of itself", {"child = ::fork()"}},
+      {"base/system/process.cpp", "is how all programs start", {"spawn(request)"}},
+      {"base/system/process_keeper.cpp", "the same", {"pid = ::vfork()", "::execv(arguments[0]"}},
+      {"base/system/spawn.cpp",
        "the same",
        {"int plain_clone(", "SYS_execve, child", "plain_clone(exec_child"}},
       {"farm/axes.cpp",
@@ -64,9 +66,9 @@ const std::vector<Allowed>& allowed_places() {
       {"farm/upkeep.cpp",
        "what the farm wrote",
        {"read_file(file, ", "sha256_of_file(cell.path()", "records::Cell>(file)"}},
-      {"records/farm_file.cpp", "the farm's own farm.json", {"read_file(path, "}},
-      {"records/project.cpp", "a project that the user names", {"read_file(path, "}},
-      {"records/record.hpp", "is how records are read", {"read_file(path, "}},
+      {"base/records/farm_file.cpp", "the farm's own farm.json", {"read_file(path, "}},
+      {"base/records/project.cpp", "a project that the user names", {"read_file(path, "}},
+      {"base/records/record.hpp", "is how records are read", {"read_file(path, "}},
       {"reference_scenes/content.cpp",
        "hashes files that were found or opened by others",
        {"KnownHashes>(file_)", "hash(InputFile(path))", "sha256_of_file(file, ",
@@ -102,11 +104,15 @@ const std::vector<Allowed>& allowed_places() {
        "a picture below the scene, which is checked once it is open",
        {"InputFile opened(path)", "read_picture(PictureFile(std::move(opened)"}},
       {"renderer/scene/scene_reader.cpp", "the scene itself", {"read_file(path, kMaxSceneBytes)"}},
-      {"shaders/run_shaders.cpp",
+      {"studies/shader_check/run_shaders.cpp",
        "our runner, and its answer in our directory",
        {"read_file(file, kMostInvocations", "run_process(command, options)"}},
-      {"shaders/runner/runner.cpp", "our runner reads what we gave it", {"std::ifstream in(file"}},
-      {"shaders/spirv.cpp", "a compiler's answer in our directory", {"read_file(scratch.path()"}},
+      {"studies/shader_check/runner/runner.cpp",
+       "our runner reads what we gave it",
+       {"std::ifstream in(file"}},
+      {"studies/shader_check/spirv.cpp",
+       "a compiler's answer in our directory",
+       {"read_file(scratch.path()"}},
   };
   return all;
 }
@@ -138,16 +144,18 @@ bool starts(const std::string& code) {
 /// Ways around the gate: leave that no user gave, and what opens or starts without being allowed.
 Problems ways_around_the_gate(const fs::path& root, const std::vector<Allowed>& allowed) {
   // Where no names come from the user himself.
-  static const std::set<std::string> gated{"accuracy",         "farm",    "records", "renderer",
-                                           "reference_scenes", "shaders", "studies"};
-  static const std::set<std::string> not_installed{"tests", "bench", "fuzz", "docs", "examples"};
+  static const std::set<std::string> gated{"farm", "renderer", "reference_scenes", "studies"};
+  static const std::set<std::string> not_installed{"tests", "docs"};
   std::map<std::string, std::vector<std::string>> left;
   for (const Allowed& one : allowed) left[one.file] = one.code;
   Problems problems;
   for (const fs::path& file : project_files(root)) {
     const std::string name = file.generic_string(), room = file.begin()->string();
     if (!is_cpp(file) || not_installed.contains(room)) continue;
-    const bool may_give = room == "cli" || room == "python" || name.starts_with("core/leave.");
+    const bool may_give = name.starts_with("program/command/") ||
+                          name.starts_with("program/python/") ||
+                          name.starts_with("base/system/leave.");
+    const bool is_gated = gated.contains(room) || name.starts_with("base/records/");
     std::size_t number = 0;
     for (const std::string& line : lines(read(root / file))) {
       ++number;
@@ -156,7 +164,7 @@ Problems ways_around_the_gate(const fs::path& root, const std::vector<Allowed>& 
       if (!may_give && (has("Leave::of_user(") || has("LOBELIA_ALLOW_COMMANDS_IN\"")))
         problems.push_back(place(file, number) + "gives leave");
       const bool starting = starts(code);
-      if (!starting && !(gated.contains(room) && opens(code))) continue;
+      if (!starting && !(is_gated && opens(code))) continue;
       auto& parts = left[name];
       const auto part = std::find_if(parts.begin(), parts.end(), has);
       if (part != parts.end())
@@ -179,8 +187,8 @@ TEST(Gate, AloneGivesLeave) {
 
 TEST(Gate, FindsLeaveThatNoUserGave) {
   Scratch tree;
-  write(tree / "cli/a.cpp", "farm.leave = Leave::of_user(options.allow_commands);\n");
-  write(tree / "core/leave.cpp", "std::getenv(\"LOBELIA_ALLOW_COMMANDS_IN\");\n");
+  write(tree / "program/command/a.cpp", "farm.leave = Leave::of_user(options.allow_commands);\n");
+  write(tree / "base/system/leave.cpp", "std::getenv(\"LOBELIA_ALLOW_COMMANDS_IN\");\n");
   ASSERT_THAT(ways_around_the_gate(tree.path(), {}), IsEmpty());
   write(tree / "farm/a.cpp", "make_outside_engine(one, Leave::of_user(true));\n");
   EXPECT_THAT(ways_around_the_gate(tree.path(), {}), ElementsAre("farm/a.cpp:1: gives leave"));
@@ -241,12 +249,12 @@ TEST(Gate, FindsNothingElse) {
         "void require(const InputFile& file);", "InputFile open_picture(const Film& film) const;",
         "InputFile Outside::open_picture(const Film& film) const {", "InputFile copy() const;",
         "const std::function<PictureFile()>& open", "// InputFile file(name);",
-        "#include \"core/files.hpp\"", "ProcessResult run_process(const Arguments& a);",
+        "#include \"base/system/files.hpp\"", "ProcessResult run_process(const Arguments& a);",
         "while (next()) run_process();", "file = open_named(name, directory, leave, reader);",
         "const std::string text = spawned(one);", "View::open(path);"})
     EXPECT_THAT(of_line(line), IsEmpty()) << line;
   // Names that the user gives on the command line.
-  EXPECT_THAT(of_line("Image a = read_image(options.a);", "cli/a.cpp"), IsEmpty());
+  EXPECT_THAT(of_line("Image a = read_image(options.a);", "program/command/a.cpp"), IsEmpty());
 }
 
 TEST(Gate, AllowsAPlaceOnceAndOnlyWhileItIsThere) {

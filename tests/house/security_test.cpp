@@ -11,7 +11,7 @@ namespace {
 
 using Problems = std::vector<std::string>;
 
-/// "core/files.cpp: rename"
+/// "base/system/files.cpp: rename"
 using Places = std::set<std::string>;
 
 using Kinds = std::vector<std::pair<std::string, std::regex>>;
@@ -69,7 +69,7 @@ std::vector<std::string> code_of(const fs::path& file) {
 
 /// In what is installed and what engines are given.
 Places places_in_source(const fs::path& root) {
-  static const std::set<std::string> outside{"tests", "bench", "fuzz", "docs", "examples"};
+  static const std::set<std::string> outside{"tests", "docs"};
   Places found;
   for (const fs::path& file : project_files(root)) {
     const bool is_python = file.extension() == ".py";
@@ -179,38 +179,38 @@ TEST(SecurityPage, ListsAllPermissionsInOneTable) {
   EXPECT_THAT(differences(kRoot, read(kRoot / "SECURITY.md")), IsEmpty());
   for (const std::string& one : places_in_source(kRoot))
     if (one.ends_with(": remove")) {
-      EXPECT_EQ(one, "core/removal.cpp: remove");
+      EXPECT_EQ(one, "base/system/removal.cpp: remove");
     }
 }
 
 TEST(SecurityPage, DiffersFromASourceOfOtherPlaces) {
   Scratch tree;
-  write(tree / "core/a.cpp", "fs::rename(a, b);\n");
-  write(tree / "core/b.cpp", "std::ifstream in(path);\nrun_process(command, {});\n");
+  write(tree / "base/a.cpp", "fs::rename(a, b);\n");
+  write(tree / "base/b.cpp", "std::ifstream in(path);\nrun_process(command, {});\n");
   write(tree / "farm/c.cpp", "const std::string text = read_file(path, 100);\n");
   const std::string head = std::string(kHeader) + "\n|---|---|---|---|---|\n";
   ASSERT_THAT(differences(tree.path(), "# Page\n\n" + head +
-                                           "| a | nothing | nothing | its file | `core/a.cpp` |\n"
-                                           "| b | it | a file | nothing | `core/b.cpp` |\n"
+                                           "| a | nothing | nothing | its file | `base/a.cpp` |\n"
+                                           "| b | it | a file | nothing | `base/b.cpp` |\n"
                                            "| c | nothing | a file | nothing | `farm/c.cpp` |\n\n"
                                            "| another | table |\n"),
               IsEmpty());
   EXPECT_THAT(differences(tree.path(),
-                          head + "| a | it | nothing | nothing | `core/a.cpp` |\n"
+                          head + "| a | it | nothing | nothing | `base/a.cpp` |\n"
                                  "| c | nothing | a file | a file | `farm/c.cpp`, `farm/d.cpp` |\n"
                                  "| d | nothing |\n"),
               ElementsAre("no row of five cells: | d | nothing |", "farm/d.cpp: not there",
-                          "core/a.cpp: rename, and a writes nothing", "core/b.cpp: open, in no row",
-                          "core/b.cpp: start, in no row", "a: starts it, by no file of its row",
+                          "base/a.cpp: rename, and a writes nothing", "base/b.cpp: open, in no row",
+                          "base/b.cpp: start, in no row", "a: starts it, by no file of its row",
                           "c: writes a file, by no file of its row"));
   std::string long_table = head;
-  for (int i = 0; i < 40; ++i) long_table += "| x | nothing | nothing | nothing | `core/x.cpp` |\n";
+  for (int i = 0; i < 40; ++i) long_table += "| x | nothing | nothing | nothing | `base/x.cpp` |\n";
   EXPECT_THAT(differences(tree.path(), long_table), ::testing::Contains("the table has 42 lines"));
 }
 
 TEST(SecurityPage, FindsEveryKindOfPlace) {
   Scratch tree;
-  write(tree / "core/a.cpp",
+  write(tree / "base/a.cpp",
         "fs::remove(path);  // and fs::rename(a, b)\n"
         "int fd = ::open(path, O_WRONLY | O_CREAT);\n"
         "bool rename_it(); void unlinked();\n");
@@ -226,14 +226,14 @@ TEST(SecurityPage, FindsEveryKindOfPlace) {
   write(tree / "tests/d.cpp", "::unlink(path);\n");
   EXPECT_THAT(
       places_in_source(tree.path()),
-      ElementsAre("core/a.cpp: remove", "core/a.cpp: write", "farm/b.cpp: rename",
+      ElementsAre("base/a.cpp: remove", "base/a.cpp: write", "farm/b.cpp: rename",
                   "farm/b.cpp: start", "gallery/open.cpp: open", "reference_scenes/c.py: start",
                   "reference_scenes/d.py: open", "shaders/f.cpp: start"));
 }
 
 TEST(SecurityPage, FindsEveryWayToRemove) {
   Scratch tree;
-  write(tree / "core/a.cpp", "removal.remove(name);\nstd::remove(a, b, c);\nbe_unlink(x);\n");
+  write(tree / "base/a.cpp", "removal.remove(name);\nstd::remove(a, b, c);\nbe_unlink(x);\n");
   ASSERT_THAT(places_in_source(tree.path()), IsEmpty());
   int file = 0;
   for (const char* call : {"fs::remove_all(a);", "std::filesystem::remove_all (a);", "::unlink(a);",

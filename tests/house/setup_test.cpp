@@ -1,4 +1,4 @@
-// scripts/setup against a made-up system: a $PATH with nothing on it but a few plain tools and
+// tools/setup against a made-up system: a $PATH with nothing on it but a few plain tools and
 // fakes of dpkg-query, apt-get, sudo and id that only write down how they were called.
 #include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
@@ -17,7 +17,7 @@ class Setup : public ::testing::Test {
       fs::create_symlink(real, bin() / tool);
     }
     // In a folder with a space in its name, as a newcomer's may be.
-    fs::copy_file(fs::path(LOBELIA_SOURCE_DIR) / "scripts/setup", script());
+    fs::copy_file(fs::path(LOBELIA_SOURCE_DIR) / "tools/setup", script());
     write(scratch_ / "a clone/scripts/packages.txt",
           "# comment\n\n"
           "compiler build    turns source into programs\n"
@@ -187,8 +187,7 @@ TEST_F(Setup, RefusesAnUnknownPurpose) {
 
 TEST_F(Setup, HasAReasonForEveryPackageOfTheRealList) {
   int packages = 0;
-  for (const std::string& line :
-       lines(read(fs::path(LOBELIA_SOURCE_DIR) / "scripts/packages.txt"))) {
+  for (const std::string& line : lines(read(fs::path(LOBELIA_SOURCE_DIR) / "tools/packages.txt"))) {
     if (line.empty() || line.starts_with('#')) continue;
     ++packages;
     std::istringstream in(line);

@@ -1,4 +1,4 @@
-// tests/suites.txt and scripts/change: which tests are long, and which of them a change calls for.
+// tests/suites.txt and tools/change: which tests are long, and which of them a change calls for.
 #include <fnmatch.h>
 
 #include <regex>
@@ -66,15 +66,15 @@ TEST(Suites, NameTestsThatExist) {
   EXPECT_THAT(of_no_test(entries, tests_in(kRoot)), IsEmpty());
 }
 
-/// The groups of long tests that scripts/change prints for these files.
+/// The groups of long tests that tools/change prints for these files.
 std::string groups_of(const std::string& files) {
-  const Ran ran = run(quoted(kRoot / "scripts/change") + " --groups " + files + " 2>/dev/null");
+  const Ran ran = run(quoted(kRoot / "tools/change") + " --groups " + files + " 2>/dev/null");
   EXPECT_EQ(ran.exit_code, 0);
   return ran.output;
 }
 
 TEST(Suites, HaveEveryGroupCalledForBySomeChange) {
-  const std::string table = read(kRoot / "scripts/change");
+  const std::string table = read(kRoot / "tools/change");
   for (const LongTests& entry : long_tests(read(kRoot / "tests/suites.txt")))
     EXPECT_TRUE(entry.group == "short" ||
                 std::regex_search(table, std::regex("echo .*\\b" + entry.group + "\\b")))

@@ -1,4 +1,5 @@
-// The headers that people copy give what the library gives, as far as they promise. tests/library/copied_headers compiles each alone.
+// The headers that people copy give what the library gives, as far as they promise. tests/library/copied_headers compiles
+// each alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,8 +8,8 @@
 
 #include "compare/compare.hpp"
 #include "compare/metrics/flip_error.hpp"
-#include "include/lobelia/flip_highlight.hpp"
-#include "include/lobelia/highlight.hpp"
+#include "program/library/lobelia/flip_highlight.hpp"
+#include "program/library/lobelia/highlight.hpp"
 #include "renderer/highlight.hpp"
 
 namespace lobelia {

@@ -22,8 +22,8 @@ class CiScript : public testing::Test {
     ASSERT_EQ(made.exit_code, 0) << made.output;
   }
   Ran compare(const std::string& arguments, const std::string& before = "") {
-    return installed_tree().shell(before + house::quoted(kRoot / "packaging/ci/compare") + " " +
-                                  arguments);
+    return installed_tree().shell(before + house::quoted(kRoot / "tools/packaging/ci/compare") +
+                                  " " + arguments);
   }
 };
 
@@ -60,8 +60,8 @@ TEST(Scripts, HaveNoMistakeThatBashOrShellcheckFinds) {
   const fs::path commands = installed_tree().work() / "docker.sh";
   write(commands, docker);
   for (const fs::path& script :
-       {kRoot / "packaging/ci/compare", kRoot / "packaging/python/postinst",
-        kRoot / "packaging/python/prerm", kRoot / "scripts/install",
+       {kRoot / "tools/packaging/ci/compare", kRoot / "tools/packaging/python/postinst",
+        kRoot / "tools/packaging/python/prerm", kRoot / "tools/install",
         kRoot / "tests/packages/first_steps.sh", kRoot / "tests/packages/fresh_root.sh",
         commands}) {
     const std::string file = house::quoted(script);
@@ -92,7 +92,7 @@ TEST(Scripts, AreWellFormedWhereTheyAreStructured) {
   EXPECT_EQ(json.exit_code, 0) << json.output;
   if (run("python3 -c 'import yaml'").exit_code != 0)
     GTEST_SKIP() << "python3-yaml is not installed";
-  for (const char* file : {"packaging/ci/action.yml", "packaging/ci/gitlab.yml"}) {
+  for (const char* file : {"tools/packaging/ci/action.yml", "tools/packaging/ci/gitlab.yml"}) {
     const Ran yaml = run("python3 -c 'import sys, yaml; yaml.safe_load(open(sys.argv[1]))' " +
                          house::quoted(kRoot / file));
     EXPECT_EQ(yaml.exit_code, 0) << file << "\n" << yaml.output;

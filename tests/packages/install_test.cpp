@@ -92,7 +92,7 @@ class Uninstall : public testing::Test {
 
   Scratch scratch;
   const fs::path prefix = scratch / "it's a $PREFIX ü";
-  const std::string script = house::quoted(LOBELIA_SOURCE_DIR "/scripts/install") + " ";
+  const std::string script = house::quoted(LOBELIA_SOURCE_DIR "/tools/install") + " ";
 };
 
 TEST_F(Uninstall, LeavesForeignFiles) {

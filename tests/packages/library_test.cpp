@@ -38,7 +38,7 @@ void expect_example_works(const std::string& program) {
 
 TEST(Library, ExampleBuildsByCmakeAndRuns) {
   const InstalledTree& tree = installed_tree();
-  fs::copy(kSource + "/examples/cpp", tree.work() / "example", fs::copy_options::recursive);
+  fs::copy(kSource + "/docs/examples/cpp", tree.work() / "example", fs::copy_options::recursive);
   const Ran built = tree.shell(
       "cmake -S example -B 'by cmake' -DCMAKE_PREFIX_PATH=\"$PREFIX\" && cmake --build 'by cmake'");
   ASSERT_EQ(built.exit_code, 0) << built.output;
@@ -46,7 +46,8 @@ TEST(Library, ExampleBuildsByCmakeAndRuns) {
 }
 
 TEST(Library, ExampleBuildsByPkgConfigAndRuns) {
-  fs::copy_file(kSource + "/examples/cpp/highlight.cpp", installed_tree().work() / "example.cpp");
+  fs::copy_file(kSource + "/docs/examples/cpp/highlight.cpp",
+                installed_tree().work() / "example.cpp");
   // pkg-config escapes a path for the shell.
   const Ran built = installed_tree().shell(
       kLibraries +

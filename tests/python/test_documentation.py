@@ -69,6 +69,6 @@ def test_commands_of_the_page_are_those_of_other_tests():
     blocks = page.split("```")[1::2]
     assert [block.strip() for block in blocks if block.startswith("\n")] == [
         'export PYTHONPATH="$PWD/build/release/python"',  # all tests run so
-        "pip wheel ./python",  # test_wheel.py
+        "pip wheel ./program/python",  # test_wheel.py
         "pytest --lobelia-update",  # test_plugin.py
     ]

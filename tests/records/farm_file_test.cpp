@@ -1,7 +1,7 @@
-#include "records/farm_file.hpp"
+#include "base/records/farm_file.hpp"
 
-#include "core/error.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/error.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::records {

@@ -1,8 +1,8 @@
 // Laws that hold of every kind of record, on records at random that its schema allows.
-#include "core/error.hpp"
-#include "core/text.hpp"
+#include "base/records/catalogue.hpp"
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
 #include "lobelia_paths.hpp"
-#include "records/catalogue.hpp"
 #include "tests/json_schema.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/test.hpp"

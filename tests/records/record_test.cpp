@@ -1,8 +1,8 @@
-#include "records/record.hpp"
+#include "base/records/record.hpp"
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "records/result.hpp"
+#include "base/records/result.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 

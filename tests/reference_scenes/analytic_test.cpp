@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -1,7 +1,7 @@
 // The layers of a multilayer EXR that Blender itself writes.
-#include "core/contained_reader.hpp"
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/pictures/contained_reader.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"

@@ -1,6 +1,6 @@
 // `lobelia reference` as a user meets it.
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"

@@ -1,6 +1,6 @@
 // `lobelia engines` as a user meets it, with engines played by shell scripts.
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/json.hpp"

@@ -1,11 +1,11 @@
 // A whole scene by formulas per pixel: held against numbers that are known without it, and double against 50
 // digits.
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "studies/stability/cases.hpp"

@@ -3,10 +3,10 @@
 
 #include <future>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/write_limit.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/write_limit.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "tests/reference_scenes/render_all.hpp"

@@ -3,10 +3,10 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/sha256.hpp"
-#include "records/record.hpp"
+#include "base/records/record.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/sha256.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"
 

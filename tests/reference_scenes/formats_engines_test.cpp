@@ -1,7 +1,7 @@
 // Scenes that are written for Blender, given to the real one.
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/process.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "renderer/render.hpp"
@@ -43,7 +43,8 @@ double sum_of_channel(const Image& image, std::size_t channel) {
 }
 
 /// Cycles' closure differs from Blinn-Phong (NDF) by 1 / ((V.H) max(N.L, N.V)), which is nearly 1 where light, eye and
-/// normal are nearly one. The spheres are meshes, and Blender filters pixels. Measured: the peak is 1.4 % less, the sum 0.4 % more.
+/// normal are nearly one. The spheres are meshes, and Blender filters pixels. Measured: the peak is 1.4 % less, the sum
+/// 0.4 % more.
 TEST_F(WrittenForBlender, AHighlightLitFromTheCameraIsNearlyOurs) {
   Scene scene = canonical_scene("head_on");
   scene.film.width = scene.film.height = 64;

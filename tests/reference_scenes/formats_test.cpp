@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "core/image.hpp"
-#include "records/scene.hpp"
+#include "base/pictures/image.hpp"
+#include "base/records/scene.hpp"
 #include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/json.hpp"

@@ -1,9 +1,9 @@
 // Input of the engines: numbers in full, and nothing that a person typed.
 #include <regex>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"

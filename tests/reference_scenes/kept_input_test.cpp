@@ -1,10 +1,10 @@
 // The kept input of an engine, given to the real engine by the kept command alone.
 #include <fmt/format.h>
 
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "tests/reference_scenes/require_engine.hpp"

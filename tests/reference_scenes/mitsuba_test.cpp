@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"

@@ -1,8 +1,8 @@
-// Engines with highlights of their own against the formulas: each within its floor, so that the convention of each is pinned,
-// and near enough to find a thousandth in a coefficient.
+// Engines with highlights of their own against the formulas: each within its floor, so that the convention of each is
+// pinned, and near enough to find a thousandth in a coefficient.
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/reference_scenes/render_all.hpp"

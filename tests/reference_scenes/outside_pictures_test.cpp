@@ -1,7 +1,7 @@
 // Pictures that are there already, as an engine: which are hashed for their keys, and which are not read at all.
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/sha256.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
+#include "base/system/sha256.hpp"
 #include "reference_scenes/content.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/outside/outside.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "studies/agreement/example_scenes.hpp"
 
 namespace lobelia {

@@ -1,6 +1,6 @@
 // The reference is itself held against numbers that are known without it.
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 
 #include "renderer/render.hpp"
 #include "tests/test.hpp"

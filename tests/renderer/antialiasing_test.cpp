@@ -1,8 +1,8 @@
 // Several rays a pixel: by each filter without bias, and only where they are needed.
 #include <fmt/format.h>
 
-#include "core/constants.hpp"
-#include "core/files.hpp"
+#include "base/system/files.hpp"
+#include "base/words/constants.hpp"
 #include "lobelia_paths.hpp"
 #include "renderer/filters.hpp"
 #include "renderer/peak_bound.hpp"

@@ -1,7 +1,7 @@
 // Whether pictures with noise agree: a z-test of blocks of pixels.
 #pragma once
 
-#include "core/image.hpp"
+#include "base/pictures/image.hpp"
 #include "renderer/render.hpp"
 #include "tests/test.hpp"
 

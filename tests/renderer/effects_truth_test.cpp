@@ -1,5 +1,5 @@
 // Single effects, held to what is known of them: irradiance in closed form, the white furnace, lenses and mirrors.
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"

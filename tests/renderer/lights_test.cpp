@@ -1,7 +1,7 @@
 // Draws from lights with a size, against what a ray meets of them.
 #include <memory>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/scene/lights/envmap_table.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/test.hpp"

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "core/exr_writer.hpp"
+#include "base/pictures/exr_writer.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "core/threads.hpp"
+#include "base/system/threads.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <thread>
 
-#include "core/files.hpp"
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
 #include "tests/renderer/scene_text.hpp"
 
 namespace lobelia {

@@ -1,9 +1,9 @@
 // Scene files for tests of the reader: a frame around what a test is about, and the error of one.
 #pragma once
 
-#include "core/error.hpp"
-#include "fuzz/same_scene.hpp"
+#include "base/system/error.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/fuzz/same_scene.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,7 +1,7 @@
 // `lobelia export` as a user meets it.
 #include "reference_scenes/engines/povray/povray_input.hpp"
-#include "shaders/export.hpp"
-#include "shaders/povray.hpp"
+#include "renderer/export/export.hpp"
+#include "renderer/export/povray.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 #include "tests/test.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 
 namespace lobelia {
 

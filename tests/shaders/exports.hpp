@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "shaders/export.hpp"
-#include "shaders/names.hpp"
+#include "base/system/error.hpp"
+#include "renderer/export/export.hpp"
+#include "renderer/export/names.hpp"
 
 namespace lobelia {
 

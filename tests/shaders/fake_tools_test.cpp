@@ -1,10 +1,10 @@
 // Compilers and a browser, pretended by shell scripts: what becomes of the ones that hang, crash or quote a shader.
 #include <fmt/format.h>
 
-#include "core/base64.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "shaders/run_shaders.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/base64.hpp"
+#include "studies/shader_check/run_shaders.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/test.hpp"
 

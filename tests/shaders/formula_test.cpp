@@ -1,10 +1,10 @@
 // A lobe by its formula, as shader text in every language.
 #include <fmt/format.h>
 
+#include "renderer/export/export.hpp"
+#include "renderer/export/names.hpp"
+#include "renderer/export/povray.hpp"
 #include "renderer/formula.hpp"
-#include "shaders/export.hpp"
-#include "shaders/names.hpp"
-#include "shaders/povray.hpp"
 #include "tests/renderer/infix.hpp"
 #include "tests/test.hpp"
 

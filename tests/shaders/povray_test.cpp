@@ -1,12 +1,12 @@
 // Exports for POV-Ray, in the hands of a stranger.
 #include <fmt/format.h>
 
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine.hpp"
-#include "shaders/povray.hpp"
+#include "renderer/export/povray.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/test.hpp"
 

@@ -1,7 +1,7 @@
 // A shader's text before a compiler sees it, and what a compiler says of it afterwards.
-#include "shaders/program_text.hpp"
+#include "studies/shader_check/program_text.hpp"
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/test.hpp"
 

@@ -1,8 +1,8 @@
 // The exported GLSL, HLSL and WGSL, run by drivers and in Chromium, against the formulas in 50 digits.
-#include "core/files.hpp"
-#include "core/image_io_module.hpp"
-#include "core/process.hpp"
-#include "shaders/runner_protocol.hpp"
+#include "base/pictures/image_io_module.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
+#include "studies/shader_check/runner_protocol.hpp"
 #include "tests/shaders/export_values.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/test.hpp"

@@ -1,8 +1,8 @@
 // For tests that run shaders: they are skipped where nothing does.
 #pragma once
 
-#include "core/error.hpp"
-#include "shaders/run_shaders.hpp"
+#include "base/system/error.hpp"
+#include "studies/shader_check/run_shaders.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -3,8 +3,8 @@
 
 #include <regex>
 
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "tests/shaders/exports.hpp"
 #include "tests/test.hpp"
 

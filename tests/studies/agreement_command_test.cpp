@@ -1,7 +1,7 @@
 // The small table of agreement by the real engines, as a user makes it, and with a mistake of a thousandth planted in each.
-#include "core/files.hpp"
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 #include "lobelia_paths.hpp"
 #include "studies/agreement/agreement.hpp"
 #include "tests/json.hpp"

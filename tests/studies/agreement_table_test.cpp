@@ -1,8 +1,8 @@
 // The table of agreement without engines: what is compared, how, and the page that is made of it.
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/highlight.hpp"

@@ -1,8 +1,8 @@
 // Conversions, held to closed forms and to a scan by formulas that are written anew here.
 #include "studies/convert/convert.hpp"
 
+#include "base/words/constants.hpp"
 #include "compare/metrics/ciede2000.hpp"
-#include "core/constants.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/ggx.hpp"
 #include "studies/convert/curve.hpp"

@@ -3,8 +3,8 @@
 
 #include <pugixml.hpp>
 
-#include "core/error_time_chart.hpp"
-#include "core/files.hpp"
+#include "base/system/files.hpp"
+#include "base/words/error_time_chart.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::cost {

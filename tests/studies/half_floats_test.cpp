@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/test.hpp"

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_variants.hpp"

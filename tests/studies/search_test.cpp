@@ -3,7 +3,7 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/search/minimax.hpp"
 #include "studies/search/search.hpp"

@@ -3,13 +3,13 @@
 
 #include <chrono>
 
-#include "core/error.hpp"
-#include "shaders/export.hpp"
-#include "shaders/names.hpp"
-#include "shaders/program_text.hpp"
+#include "base/system/error.hpp"
+#include "renderer/export/export.hpp"
+#include "renderer/export/names.hpp"
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/mistakes.hpp"
+#include "studies/shader_check/program_text.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/studies/planted_mistakes.hpp"

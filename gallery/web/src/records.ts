@@ -1,5 +1,5 @@
 // The program's data for the pages' scripts. Written by `lobelia records --typescript > gallery/web/src/records.ts`;
-// do not edit: records/pages.cpp has the tables.
+// do not edit: base/records/pages.cpp has the tables.
 
 /** An axis of the grid. */
 export interface GridAxis {
@@ -237,9 +237,9 @@ export interface CellIndex {
 export interface CellChunk {
   /** CellTexts; base64, deflated */
   texts: string;
-  /** the numbers of all profiles as gallery/packed_numbers.hpp has them; base64, deflated */
+  /** the numbers of all profiles as gallery/packed/packed_numbers.hpp has them; base64, deflated */
   curves: string;
-  /** for each cell all its pictures as gallery/packed_pixels.hpp has them; base64, deflated */
+  /** for each cell all its pictures as gallery/packed/packed_pixels.hpp has them; base64, deflated */
   pixels: string[];
 }
 
@@ -275,7 +275,7 @@ export interface Thumbnails {
   heights: number[];
   /** as in PackedShown */
   ways: number[];
-  /** all pictures as gallery/packed_pixels.hpp has them; base64, deflated */
+  /** all pictures as gallery/packed/packed_pixels.hpp has them; base64, deflated */
   pixels: string;
 }
 

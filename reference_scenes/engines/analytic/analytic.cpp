@@ -5,11 +5,11 @@
 #include <atomic>
 #include <chrono>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/interrupt.hpp"
-#include "core/threads.hpp"
-#include "core/version.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/threads.hpp"
+#include "base/system/version.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/removal.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/removal.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/formula.hpp"

@@ -11,8 +11,8 @@
 
 namespace lobelia {
 
-/// Cycles has the ray, its length and the place of a point in float32. Colours go through some nodes in float32; where the surface is seen at a
-/// grazing angle, they are off by 1e-5 of the peak.
+/// Cycles has the ray, its length and the place of a point in float32. Colours go through some nodes in float32; where
+/// the surface is seen at a grazing angle, they are off by 1e-5 of the peak.
 inline constexpr EngineFloor kBlenderExpressed{.of_peak = 1e-5, .of_place = 3 * kFloat32Rounding};
 /// The closure takes the n-th power of N.H, the product of two vectors in float32.
 inline constexpr EngineFloor kBlenderNative{
@@ -55,10 +55,10 @@ std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const std::filesystem::path& directory);
 
-/// A scene written down for render_scenes.py: numbers and enumerations. Nothing that a user typed into the scene file (ids,
-/// paths) gets in, so none of it can become code. Its text is one entry of the job's "scenes". `scene` is in engine units
-/// (preparation.hpp). `native` calls for highlights that Cycles' own closure can shade. Throws Error(kEngine) for what Blender
-/// cannot render.
+/// A scene written down for render_scenes.py: numbers and enumerations. Nothing that a user typed into the scene file
+/// (ids, paths) gets in, so none of it can become code. Its text is one entry of the job's "scenes". `scene` is in engine
+/// units (preparation.hpp). `native` calls for highlights that Cycles' own closure can shade. Throws Error(kEngine) for
+/// what Blender cannot render.
 SceneInput blender_input(const Scene& scene, const std::string& name, bool native = false);
 
 }  // namespace lobelia

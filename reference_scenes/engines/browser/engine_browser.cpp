@@ -230,7 +230,7 @@ std::string version() {
   const std::string text(std::istreambuf_iterator<char>(page), {});
   const std::size_t begin = text.find("<title>"), end = text.find("</title>");
   if (begin == text.npos || end == text.npos) {
-    std::fprintf(stderr, "Lobelia was built without npm's packages, which scripts/web fetches\n");
+    std::fprintf(stderr, "Lobelia was built without npm's packages, which tools/web fetches\n");
     std::exit(kNotInstalled);
   }
   if (std::system("command -v chromium > /dev/null") != 0) {

@@ -1,5 +1,5 @@
-// OpenGL's lighting before shaders (OpenGL 1.0 to 2.1, "fixed function") as a reference engine: Blinn-Phong as it was in every
-// graphics card for twenty years.
+// OpenGL's lighting before shaders (OpenGL 1.0 to 2.1, "fixed function") as a reference engine: Blinn-Phong as it was in
+// every graphics card for twenty years.
 #include "reference_scenes/engines/programs/native_engine.hpp"
 
 namespace lobelia {

@@ -10,13 +10,13 @@
 #include <mutex>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/interrupt.hpp"
-#include "core/picture_file.hpp"
-#include "core/process.hpp"
-#include "core/removal.hpp"
-#include "core/text.hpp"
+#include "base/pictures/picture_file.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/process.hpp"
+#include "base/system/removal.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/content.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/outside/outside_reader.hpp"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/leave.hpp"
-#include "records/outside_engine.hpp"
+#include "base/records/outside_engine.hpp"
+#include "base/system/leave.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia {

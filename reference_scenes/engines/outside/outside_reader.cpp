@@ -6,9 +6,9 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "renderer/plan/effects/catalogue.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "records/outside_engine.hpp"
+#include "base/records/outside_engine.hpp"
 #include "renderer/scene/xml_format.hpp"
 #include "renderer/scene/xml_source.hpp"
 

@@ -7,13 +7,13 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "core/at_once.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/image_io.hpp"
-#include "core/interrupt.hpp"
-#include "core/removal.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/at_once.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/removal.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"

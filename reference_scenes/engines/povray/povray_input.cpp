@@ -7,16 +7,16 @@
 #include <span>
 #include <string_view>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "reference_scenes/replicates.hpp"
+#include "renderer/export/povray.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/contact.hpp"
-#include "shaders/povray.hpp"
 
 namespace lobelia {
 namespace embedded {

@@ -55,9 +55,9 @@ void write_povray_ini(const std::filesystem::path& directory, const std::string&
 /// environment to run POV-Ray `version` with.
 ///
 /// Debian's 3.7.0.10 says that its restrictions are enabled. They keep it from running programs, even if the system's
-/// povray.conf allows that, but not from files: with [File I/O Security] restricted, #fopen, #include and the picture still
-/// reach all that the user may read and write. core/write_limit.hpp is what limits its writing; the restrictions are for
-/// builds that honour them.
+/// povray.conf allows that, but not from files: with [File I/O Security] restricted, #fopen, #include and the picture
+/// still reach all that the user may read and write. base/system/write_limit.hpp is what limits its writing; the
+/// restrictions are for builds that honour them.
 std::vector<std::string> povray_home(const std::filesystem::path& home, const std::string& version);
 
 }  // namespace lobelia

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/files.hpp"
-#include "core/text.hpp"
+#include "base/system/files.hpp"
+#include "base/words/text.hpp"
 #include "reference_scenes/persistent_session.hpp"
 #include "reference_scenes/preparation.hpp"
 

@@ -36,8 +36,8 @@ struct OwnHighlight {
 std::string why_not_one_sphere(const Scene& scene);
 bool has_point_lights(const Scene& scene);
 
-/// An engine that is one of our small programs around an engine's library (scene_program.hpp), and shades by the engine's own
-/// highlight or not at all: the differences between these engines.
+/// An engine that is one of our small programs around an engine's library (scene_program.hpp), and shades by the engine's
+/// own highlight or not at all: the differences between these engines.
 struct NativeEngine {
   EngineInfo info;
   EngineProbe probe;

@@ -1,5 +1,6 @@
-// The frame of a program that renders by an engine's library: it takes scene after scene (persistent_session.hpp) in the form
-// of native_engine.hpp. Only the standard library, so that an engine's program loads nothing that the engine does not need.
+// The frame of a program that renders by an engine's library: it takes scene after scene (persistent_session.hpp) in the
+// form of native_engine.hpp. Only the standard library, so that an engine's program loads nothing that the engine does
+// not need.
 #pragma once
 
 #include <array>

@@ -6,8 +6,8 @@
 namespace lobelia {
 namespace {
 
-/// All in float32: the place of a point, by a quadratic that loses most beside the silhouette, its normal, and the cosine from
-/// two more vectors and their product.
+/// All in float32: the place of a point, by a quadratic that loses most beside the silhouette, its normal, and the cosine
+/// from two more vectors and their product.
 constexpr EngineFloor kSunflowFloor{.of_peak = 16 * kFloat32Rounding,
                                     .of_quadratic = 3 * kFloat32Rounding,
                                     .of_cosine = 12 * kFloat32Rounding};

@@ -13,10 +13,10 @@
 #include <string>
 #include <variant>
 
-#include "core/constants.hpp"
-#include "core/image.hpp"
-#include "core/parameter.hpp"
-#include "core/vec.hpp"
+#include "base/pictures/image.hpp"
+#include "base/words/constants.hpp"
+#include "base/words/vec.hpp"
+#include "renderer/scene/parameter.hpp"
 
 namespace lobelia {
 

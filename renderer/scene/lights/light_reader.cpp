@@ -2,10 +2,10 @@
 
 #include <system_error>
 
-#include "core/contained_reader.hpp"
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/picture_file.hpp"
+#include "base/pictures/contained_reader.hpp"
+#include "base/pictures/picture_file.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

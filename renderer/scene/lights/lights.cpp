@@ -1,6 +1,6 @@
 #include "renderer/scene/lights/lights.hpp"
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,6 +1,6 @@
 #include "renderer/scene/lights/prepared_light.hpp"
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 
 #ifndef __OPTIMIZE__
 #define HWY_COMPILE_ONLY_STATIC  // see kernels.cpp

@@ -1,7 +1,7 @@
 // Engines that do whatever engines should not do.
 #include <signal.h>
 
-#include "core/image_io.hpp"
+#include "base/pictures/image_io.hpp"
 #include "failing_farm.hpp"
 #include "farm/chunk.hpp"
 #include "reference_scenes/failure.hpp"

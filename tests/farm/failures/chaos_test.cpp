@@ -9,7 +9,7 @@
 
 #include <thread>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "failing_farm.hpp"
 
 namespace lobelia {

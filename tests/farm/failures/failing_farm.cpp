@@ -9,9 +9,9 @@
 
 #include <thread>
 
-#include "core/image_io.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "base/pictures/image_io.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 #include "farm/grid.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"

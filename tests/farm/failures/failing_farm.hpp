@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "core/files.hpp"
+#include "base/system/files.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 

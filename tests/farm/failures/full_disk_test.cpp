@@ -1,6 +1,6 @@
 // Disks of the test's own, in a mount namespace: full ones, and ones that may only be read.
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 #include "failing_farm.hpp"
 #include "lobelia_paths.hpp"
 

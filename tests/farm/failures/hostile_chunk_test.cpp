@@ -1,7 +1,7 @@
 // Chunks that no farm of ours has planned.
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/sha256.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/sha256.hpp"
 #include "farm/chunk.hpp"
 #include "farm/job_graph.hpp"
 #include "lobelia_paths.hpp"

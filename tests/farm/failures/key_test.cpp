@@ -1,5 +1,5 @@
 // A key has all that decides a result: the engine's files, its libraries, the arithmetic.
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "failing_farm.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/json.hpp"

@@ -3,7 +3,7 @@
 
 #include <thread>
 
-#include "core/process.hpp"
+#include "base/system/process.hpp"
 #include "failing_farm.hpp"
 
 namespace lobelia {

@@ -4,8 +4,8 @@
 
 #include <thread>
 
-#include "core/process.hpp"
-#include "core/text.hpp"
+#include "base/system/process.hpp"
+#include "base/words/text.hpp"
 #include "failing_farm.hpp"
 #include "lobelia_paths.hpp"
 

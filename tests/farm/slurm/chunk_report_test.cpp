@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

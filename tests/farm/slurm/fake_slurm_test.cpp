@@ -1,8 +1,8 @@
 // The client of Slurm against programs that only pretend, for answers that no real cluster gives on demand.
 #include "tests/farm/slurm/fake_slurm.hpp"
+#include "base/records/cluster.hpp"
+#include "base/records/record.hpp"
 #include "farm/slurm/slurm_client.hpp"
-#include "records/cluster.hpp"
-#include "records/record.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 

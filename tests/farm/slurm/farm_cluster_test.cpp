@@ -1,7 +1,7 @@
 // The farm on a real Slurm of this machine: whatever happens to the cluster, its results are the local farm's.
 #include <thread>
 
-#include "core/text.hpp"
+#include "base/words/text.hpp"
 #include "tests/farm/failures/failing_farm.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/json.hpp"

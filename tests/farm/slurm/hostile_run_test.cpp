@@ -1,8 +1,8 @@
 // Farms' directories with the record of a run that a stranger wrote.
 #include <iterator>
 
+#include "base/records/record.hpp"
 #include "farm/slurm/slurm_farm.hpp"
-#include "records/record.hpp"
 #include "tests/farm/farm_fixture.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"

@@ -1,6 +1,6 @@
 #include "farm/slurm/slurm_answers.hpp"
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "farm/slurm/slurm_options.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"

@@ -1,8 +1,8 @@
 // A real Slurm cluster of three nodes on this machine, for one test (tests/farm/slurm/cluster).
 #pragma once
 
-#include "core/files.hpp"
-#include "core/process.hpp"
+#include "base/system/files.hpp"
+#include "base/system/process.hpp"
 #include "lobelia_paths.hpp"
 #include "tests/test.hpp"
 

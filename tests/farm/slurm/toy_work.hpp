@@ -9,11 +9,11 @@
 #include <iterator>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/interrupt.hpp"
-#include "core/sha256.hpp"
-#include "core/text.hpp"
+#include "base/system/error.hpp"
+#include "base/system/files.hpp"
+#include "base/system/interrupt.hpp"
+#include "base/system/sha256.hpp"
+#include "base/words/text.hpp"
 #include "farm/slurm/slurm_run.hpp"
 #include "tests/test.hpp"
 

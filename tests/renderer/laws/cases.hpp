@@ -7,7 +7,7 @@
 #include <iterator>
 #include <ostream>
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "tests/test.hpp"

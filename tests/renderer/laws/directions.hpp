@@ -1,7 +1,7 @@
 // Directions for the laws: chosen at random once and for all, and as grazing as they come.
 #pragma once
 
-#include "core/vec.hpp"
+#include "base/words/vec.hpp"
 #include "tests/renderer/laws/cases.hpp"
 
 namespace lobelia {

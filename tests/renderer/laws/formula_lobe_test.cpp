@@ -4,7 +4,7 @@
 #include <memory>
 #include <regex>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "renderer/operation_count.hpp"
 #include "renderer/render.hpp"
 #include "tests/canonical_scene.hpp"

@@ -1,6 +1,6 @@
 // Every model multiplies its lobe by the cosine where it should, is black below the horizon, and is finite.
 
-#include "core/constants.hpp"
+#include "base/words/constants.hpp"
 #include "renderer/reflector.hpp"
 #include "tests/renderer/laws/directions.hpp"
 

@@ -1,4 +1,4 @@
-// Reads the pictures that gallery/half_picture.cpp and float_pictures.cpp write.
+// Reads the pictures that gallery/packed/half_picture.cpp and float_pictures.cpp write.
 import { load } from '../lib/data';
 import { inflated } from '../lib/inflate';
 import type { PackedPicture } from '../records';

@@ -4,7 +4,7 @@ import { numberText, percentText } from '../lib/numbers';
 import { cssGradient } from './colours';
 import { kDecades, type ViewerState } from './viewer_state';
 
-const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.cpp
+const kLeastOfMap = 2 ** -10;  // gallery/site/difference_maps.cpp
 
 export function legendOf(viewer: ViewerState, a: number, b: number): (HTMLElement | string)[] {
   const mode = viewer.choice.mode();

@@ -1,4 +1,4 @@
-// Reads the cells that gallery/cell_chunk.cpp packs.
+// Reads the cells that gallery/cells/cell_chunk.cpp packs.
 import { load } from '../lib/data';
 import { inflated } from '../lib/inflate';
 import { toNumber } from '../lib/numbers';
@@ -13,7 +13,7 @@ export interface OpenedCell {
   readonly pictures: ReadonlyMap<string, string>;
 }
 
-/** As link_to() of gallery/page.cpp has it: the files are in this order. */
+/** As link_to() of gallery/pages/page.cpp has it: the files are in this order. */
 const encoded = (id: string): string =>
   encodeURIComponent(id).replace(/[!'()*]/g, (c) => '%' + c.charCodeAt(0).toString(16).toUpperCase());
 

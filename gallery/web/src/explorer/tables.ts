@@ -1,4 +1,4 @@
-// Interpolates the tables of gallery/explorer_page.cpp (docs/records.md, highlight-tables) over the exponent. Knows no
+// Interpolates the tables of gallery/pages/explorer_page.cpp (docs/records.md, highlight-tables) over the exponent. Knows no
 // formula of a lobe or a model.
 import type { HighlightTable, HighlightTables, LobeTable } from '../records';
 

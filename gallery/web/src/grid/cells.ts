@@ -55,7 +55,7 @@ export class Cells {
 
   isFlaw(cell: number): boolean { return this.page.status[cell]! < kFlaws; }
 
-  /** As gallery/shown_farm.cpp has it. */
+  /** As gallery/cells/shown_farm.cpp has it. */
   label(cell: number): string {
     const own = this.ownLabels.get(cell);
     return own ?? this.page.axes.map(({ name, values }, axis) => {

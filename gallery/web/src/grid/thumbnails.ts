@@ -4,7 +4,7 @@ import { inflated } from '../lib/inflate';
 import { PackedPixels } from '../lib/packed_pixels';
 import type { Thumbnails as File } from '../records';
 
-const kCellsOfFile = 100;  // gallery/packed_cells.hpp
+const kCellsOfFile = 100;  // gallery/packed/packed_cells.hpp
 const kMostFiles = 100;  // kept as they are, 25 KB each as a rule
 const kMostOpen = 12;  // kept ready, 1.2 MB each
 const kMostAddresses = 1500;  // kept, 16 KB each

@@ -1,4 +1,4 @@
-// Numbers in words, as core/numbers.cpp writes them into the pages.
+// Numbers in words, as base/words/numbers.cpp writes them into the pages.
 
 const kNames: Record<string, number> = { nan: NaN, inf: Infinity, '-inf': -Infinity };
 

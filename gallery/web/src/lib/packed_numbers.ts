@@ -1,4 +1,4 @@
-// Reads the numbers that gallery/packed_numbers.cpp writes.
+// Reads the numbers that gallery/packed/packed_numbers.cpp writes.
 
 const kNan = 2 ** 27, kLeastExponent = -330, kDigits = 5, kDigitsOfDifference = 3;
 

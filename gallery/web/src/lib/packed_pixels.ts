@@ -1,4 +1,4 @@
-// Reads the pictures that gallery/packed_pixels.cpp writes, and shows pixels as a picture's address.
+// Reads the pictures that gallery/packed/packed_pixels.cpp writes, and shows pixels as a picture's address.
 
 export interface PackedSize { readonly width: number; readonly height: number; readonly way: number }
 

@@ -1,4 +1,4 @@
-// A report in one file: all other files of the site are elements of the page, with JSON inside (gallery/single_file.cpp).
+// A report in one file: all other files of the site are elements of the page, with JSON inside (gallery/pages/single_file.cpp).
 // The hash names the page that is shown: #page=cells/a/index.html&mode=flip.
 
 import type { InlinedPage } from '../records';

@@ -263,7 +263,7 @@ class GridView {
     return new ListBlock(shown, title, this.isReport(), this.sizes(), (cell) => this.item(cell));
   }
 
-  /** The axes span at most 200 000 places (gallery/grid_layout.cpp). */
+  /** The axes span at most 200 000 places (gallery/pages/grid_layout.cpp). */
   private sections(shown: readonly number[]): Block[] {
     const { cells, data } = this, { axes } = data, rows = this.axis('rows'), group = this.axis('group'), cols = this.axis('cols');
     const size = (axis: number): number => (axis < 0 ? 1 : axes[axis]!.values.length);

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/big.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "reference_scenes/engines/analytic/formulas/printed.hpp"

@@ -17,9 +17,9 @@ Number lobe_definition(const LobeId& lobe, const Number& cosine, double exponent
   return kDefinitions.at(lobe.index)({exponent, lobe}, cosine);
 }
 
-/// A lobe is sampled over s with the density lobe times this, over its integral: 1 where the samples follow the lobe itself.
-/// Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator, and GGX from
-/// (1 + n s / 2)^-2.
+/// A lobe is sampled over s with the density lobe times this, over its integral: 1 where the samples follow the lobe
+/// itself. Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator,
+/// and GGX from (1 + n s / 2)^-2.
 template <class Number>
 Number draw_factor(LobeId lobe, const Number& cosine, double exponent) {
   using std::acos, std::sin;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/big.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"

@@ -4,7 +4,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/big.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <tuple>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/big.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "core/error.hpp"
+#include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"
 #include "renderer/pixel_ray.hpp"

@@ -1,0 +1,158 @@
+// lobelia check-shader FILE
+#include "base/records/record.hpp"
+#include "base/system/files.hpp"
+#include "base/system/standard_streams.hpp"
+#include "program/command/commands.hpp"
+#include "program/command/common_options.hpp"
+#include "program/command/options.hpp"
+#include "program/command/output_files.hpp"
+#include "studies/shader_check/arguments.hpp"
+#include "studies/shader_check/check.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+constexpr std::uint64_t kMaxShaderBytes = 1 << 20;
+constexpr std::string_view kOnNames[] = {"egl", "vulkan"};
+
+struct CheckShaderArguments {
+  std::string file, function, arguments = "N,V,L,n", model, lobe = "cosine",
+                              normalisation = "exact", language, on, json, html;
+  std::vector<double> exponents{std::begin(shader_check::kUsualExponents),
+                                std::end(shader_check::kUsualExponents)};
+  double time_limit = kShaderTimeLimit.count();
+  bool no_costs = false;
+};
+
+/// By --language, or by the ending of the file.
+ShaderText language_of(const CheckShaderArguments& options) {
+  const std::string ending = std::filesystem::path(options.file).extension().string();
+  const std::string name = !options.language.empty()              ? options.language
+                           : ending == ".hlsl" || ending == ".fx" ? "hlsl"
+                           : ending == ".wgsl"                    ? "wgsl"
+                                                                  : "glsl";
+  return ShaderText(chosen_place(name, "--language", kShaderTextNames));
+}
+
+/// By --on, which only GLSL has a choice of.
+ShaderApi api_of(const CheckShaderArguments& options, ShaderText language) {
+  const ShaderApi usual = language == ShaderText::kGlsl   ? ShaderApi::kEgl
+                          : language == ShaderText::kHlsl ? ShaderApi::kVulkan
+                                                          : ShaderApi::kWebGpu;
+  if (options.on.empty()) return usual;
+  const auto chosen_api = ShaderApi(chosen_place(options.on, "--on", kOnNames));
+  if (language != ShaderText::kGlsl && chosen_api != usual)
+    throw Error(ExitCode::kUsage, "--on {}: {} runs on {} alone", options.on,
+                kShaderTextNames[std::size_t(language)], kShaderApiNames[std::size_t(usual)]);
+  return chosen_api;
+}
+
+shader_check::Request request_of(const CheckShaderArguments& options) {
+  shader_check::Request request;
+  request.file = options.file;
+  request.language = language_of(options);
+  request.api = api_of(options, request.language);
+  request.function = options.function;
+  request.arguments = options.arguments;
+  request.highlight.model = chosen(options.model, "--model", model_names(), find_model);
+  request.highlight.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+  request.highlight.normalisation =
+      chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
+  radiance_coefficient(request.highlight);  // throws if the paper has none
+  request.exponents = options.exponents;
+  // In the middle: neither a blur nor a dot.
+  std::ranges::sort(request.exponents);
+  const auto again = std::ranges::unique(request.exponents);
+  request.exponents.erase(again.begin(), again.end());
+  request.shown_exponent = request.exponents[request.exponents.size() / 2];
+  request.time_limit = std::chrono::duration<double>(options.time_limit);
+  request.costs = !options.no_costs;
+  request.text = read_file(options.file, kMaxShaderBytes);
+  return request;
+}
+
+ExitCode run_check_shader(const CheckShaderArguments& options) {
+  OutputFiles outputs;
+  outputs.reads(options.file);
+  const bool json_to_stdout = options.json == kStdout;
+  outputs.writes_report(options.json);
+  if (!options.html.empty()) {
+    outputs.writes(options.html);
+    require_writable(options.html);
+  }
+  shader_check::Check check = shader_check::check_shader(request_of(options));
+  check.record.command = command_line();
+  FilesTogether files;
+  if (!options.json.empty() && !json_to_stdout) write_record(options.json, check.record);
+  if (!options.html.empty()) write_file(options.html, shader_check::report_page(check));
+  files.commit();
+  fmt::print("{}", json_to_stdout ? records::record_text(check.record)
+                                  : shader_check::report_text(check.record));
+  return check.record.verdict == "passes" ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+std::string arguments_help() {
+  std::string text = "What the function takes, in its order:";
+  for (const auto& argument : shader_check::argument_infos())
+    text += fmt::format(" {} ({}),", argument.name, argument.meaning);
+  return text + " or a number. With a minus sign a vector points to the surface";
+}
+
+}  // namespace
+
+void add_check_shader(CLI::App& app, ExitCode& exit_code) {
+  auto* command =
+      app.add_subcommand("check-shader", "Run a shader function and compare it with a model");
+  auto options = std::make_shared<CheckShaderArguments>();
+  OptionGroup shader(*command, "Shader");
+  shader.add("FILE", options->file, "FILE", "GLSL, HLSL or WGSL with the function")->required();
+  shader
+      .add("--function", options->function, "NAME",
+           "The function: its result is radiance for "
+           "unit irradiance")
+      ->required();
+  shader.add("--arguments", options->arguments, "LIST", arguments_help())->capture_default_str();
+  shader.add("--language", options->language, "",
+             fmt::format("Language: {}; otherwise by the file's ending", join(kShaderTextNames)));
+  shader.add("--on", options->on, "",
+             fmt::format("What runs GLSL: {}; otherwise egl. HLSL runs on vulkan, WGSL in Chromium",
+                         join(kOnNames)));
+  add_common(shader, "--time-limit", options->time_limit,
+             ": a shader that has not ended then is refused, and costs that are not measured then "
+             "are left out")
+      ->check(between(0.1, 3600))
+      ->capture_default_str();
+  OptionGroup model(*command, "Model");
+  model.add("--model", options->model, "", fmt::format("Model: {}", join(model_names())))
+      ->required();
+  model.add("--lobe", options->lobe, "", fmt::format("Lobe: {}", allowed_lobes()))
+      ->capture_default_str();
+  model
+      .add("--normalisation", options->normalisation, "",
+           fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))
+      ->capture_default_str();
+  model
+      .add("--exponent", options->exponents, "N",
+           "Exponents to check; otherwise 1, 4, 16, 64, 256 and 1000")
+      ->check(between(kMinExponent, kMaxExponent))
+      ->expected(1, 20)
+      ->delimiter(',');
+  OptionGroup output(*command, "Output");
+  add_json(output, options->json, "shader-check");
+  output.add("--html", options->html, "FILE", "Write a page with spheres and a plot");
+  output.add_flag("--no-costs", options->no_costs, "Measure neither half floats nor instructions");
+  command->footer(
+      "The shader runs in a process of its own, on the first graphics processor that has a driver, or\n"
+      "else on Mesa's software renderers. docs/check_shader.md is a tutorial, and lists the mistakes\n"
+      "that are found by name.\n"
+      "\n"
+      "Examples:\n"
+      "  lobelia check-shader mine.glsl --function myHighlight --model blinn_phong_ndf\n"
+      "  lobelia check-shader mine.hlsl --function spec --arguments cosine,roughness --model phong_rdf\n"
+      "\n"
+      "Exit codes: 0 it is the model, 1 it differs, 2 usage, 3 it does not compile, end or write, 4 an\n"
+      "output cannot be written, 5 nothing runs shaders here, or the driver failed.");
+  command->callback([options, &exit_code] { exit_code = run_check_shader(*options); });
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,120 @@
+// lobelia convert --exponent N --to MODEL
+#include "studies/convert/convert.hpp"
+#include "base/records/record.hpp"
+#include "program/command/commands.hpp"
+#include "program/command/common_options.hpp"
+#include "program/command/options.hpp"
+#include "program/command/output_files.hpp"
+#include "renderer/ggx.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct ConvertArguments {
+  std::string from, to, measure = "max", json, svg;
+  std::optional<double> exponent, alpha, roughness;
+  double f0 = 1;
+  WorkLimits limits;
+};
+
+conversion::ShadingModel shading_model(const std::string& name, std::string_view option) {
+  const auto& names = conversion::shading_model_names();
+  return chosen(name, option, names, conversion::find_shading_model);
+}
+
+conversion::Request request_of(const ConvertArguments& options) {
+  const int given =
+      options.exponent.has_value() + options.alpha.has_value() + options.roughness.has_value();
+  if (given > 1)
+    throw Error(ExitCode::kUsage, "only one of --exponent, --alpha and --roughness can be given");
+  conversion::Request request;
+  request.to = shading_model(options.to, "--to");
+  const bool from_exponent = given == 0 ? request.to.is_ggx() : options.exponent.has_value();
+  const std::string usual = from_exponent ? "blinn_phong_heightfield" : "ggx";
+  request.from = shading_model(options.from.empty() ? usual : options.from, "--from");
+  if (given == 1 && request.from.is_ggx() == options.exponent.has_value())
+    throw Error(ExitCode::kUsage, "--from {} takes {}", request.from.name(),
+                request.from.is_ggx() ? "--alpha or --roughness" : "--exponent");
+  request.parameter = options.exponent    ? *options.exponent
+                      : options.alpha     ? *options.alpha
+                      : options.roughness ? *options.roughness * *options.roughness
+                                          : 0;
+  request.f0 = options.f0;
+  request.measure =
+      conversion::Measure(chosen_place(options.measure, "--measure", records::kConversionMeasures));
+  return request;
+}
+
+/// The outputs, the same for one parameter and for a range.
+struct ConvertResult {
+  std::string record, text, svg;
+};
+
+ConvertResult converted(const conversion::Request& request) {
+  if (request.parameter > 0) {
+    records::Conversion conversion = conversion::convert(request);
+    conversion.command = command_line();
+    return {record_text(conversion), conversion::conversion_text(conversion),
+            draw_chart_file(conversion::conversion_chart(conversion))};
+  }
+  records::ConversionTable table = conversion::convert_range(request);
+  table.command = command_line();
+  return {record_text(table), conversion::range_text(table),
+          draw_chart_file(conversion::range_chart(table))};
+}
+
+void run_convert(const ConvertArguments& options) {
+  if (options.json == kStdout && options.svg == kStdout)
+    throw Error(ExitCode::kUsage, "only one of --json and --svg can go to stdout");
+  OutputFiles outputs;
+  for (const std::string& path : {options.json, options.svg}) outputs.writes_report(path);
+  const ConvertResult result = converted(request_of(options));
+  write_reports(result.text, {{options.json, result.record}, {options.svg, result.svg}});
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand(
+      "convert", "Convert an exponent to a GGX roughness and back, or between two models");
+  auto options = std::make_shared<ConvertArguments>();
+  OptionGroup from(*command, "From");
+  from.add("--from", options->from, "",
+           fmt::format("Model: {}; otherwise blinn_phong_heightfield for an exponent, else ggx",
+                       join(conversion::shading_model_names())));
+  from.add("--exponent", options->exponent, "", "Exponent n of a model of the catalogue")
+      ->check(between(kMinExponent, kMaxExponent));
+  from.add("--alpha", options->alpha, "", "Alpha of ggx")->check(between(kMinAlpha, kMaxAlpha));
+  from.add("--roughness", options->roughness, "", "Roughness of ggx, the root of alpha")
+      ->check(between(std::sqrt(kMinAlpha), std::sqrt(kMaxAlpha)));
+  OptionGroup to(*command, "To");
+  to.add("--to", options->to, "", "Model, as for --from")->required();
+  to.add("--measure", options->measure, "",
+         fmt::format("Which best parameter comes first: {}", join(records::kConversionMeasures)))
+      ->capture_default_str();
+  to.add_number("--f0", options->f0, 1e-3, 1,
+                "Reflectance head on; ggx has Schlick's Fresnel factor for it");
+  OptionGroup output(*command, "Output");
+  add_json(output, options->json, "conversion, of a range conversion-table");
+  output.add(
+      "--svg", options->svg, "FILE|-",
+      "Write a chart of both highlights, or of the range, with the rules of thumb; with - likewise");
+  options->limits.add_to(output);
+  command->footer(
+      "A highlight is the light that leaves per steradian by the angle of the eye, with light along the\n"
+      "normal of a flat surface. 'max' is the largest difference in % of the peak, 'misplaced' the energy\n"
+      "of the difference in % of the energy; peak, width and energy are ratios. docs/convert.md defines\n"
+      "each figure. Without a parameter, a table over exponents from 1 to 1024, or over roughness, is\n"
+      "printed.\n"
+      "\n"
+      "Examples:\n"
+      "  lobelia convert --exponent 32 --to ggx\n"
+      "  lobelia convert --to ggx --svg roughness.svg\n"
+      "  lobelia convert --roughness 0.5 --to modified_blinn_phong --measure width\n"
+      "  lobelia convert --from phong_rdf --exponent 20 --to blinn_phong_rdf --svg both.svg\n"
+      "\n"
+      "Exit codes: 0 done, 2 usage, 4 an output cannot be written.");
+  command->callback([options] { options->limits.run([&] { run_convert(*options); }); });
+}
+
+}  // namespace lobelia::cli

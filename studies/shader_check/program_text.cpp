@@ -1,0 +1,387 @@
+#include "studies/shader_check/program_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "base/system/error.hpp"
+#include "base/words/text.hpp"
+#include "renderer/export/names.hpp"
+#include "studies/shader_check/runner_protocol.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::string_view kAsFour = R"(
+%vec4% lobelia_as_four(float v) { return %vec4%(v, v, v, 1.0); }
+%vec4% lobelia_as_four(%vec3% v) { return %vec4%(v, 1.0); }
+%vec4% lobelia_as_four(%vec4% v) { return %vec4%(v.xyz, 1.0); }
+)";
+
+constexpr std::string_view kFragmentMain = R"(
+uniform highp sampler2D lobelia_points;
+out highp vec4 lobelia_result;
+void main()
+{
+    int i = int(gl_FragCoord.y) * %width% + int(gl_FragCoord.x);
+    int k = i / %points%;
+    int t = (i - k * %points%) * %texels%;
+    vec4 result = vec4(0.0);
+%fetches%%calls%    lobelia_result = result;
+}
+)";
+
+constexpr std::string_view kGlslComputeMain = R"(
+layout(local_size_x = %group%) in;
+struct LobeliaPoint { vec4 texels[%texels%]; };
+layout(std430, set = 0, binding = 0) readonly buffer LobeliaPoints { LobeliaPoint lobelia_points[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer LobeliaResults { vec4 lobelia_results[]; };
+void main()
+{
+    int i = int(gl_GlobalInvocationID.y) * %row% + int(gl_GlobalInvocationID.x);
+    int k = i / %points%;
+    if (k < %outputs%) {
+        int t = i - k * %points%;
+        vec4 result = vec4(0.0);
+%fetches%%calls%        lobelia_results[i] = result;
+    }
+}
+)";
+
+constexpr std::string_view kHlslMain = R"(
+struct LobeliaPoint { float4 texels[%texels%]; };
+[[vk::binding(0, 0)]] StructuredBuffer<LobeliaPoint> lobelia_points;
+[[vk::binding(1, 0)]] RWStructuredBuffer<float4> lobelia_results;
+[numthreads(%group%, 1, 1)] void lobelia_main(uint3 id : SV_DispatchThreadID)
+{
+    int i = int(id.y) * %row% + int(id.x);
+    int k = i / %points%;
+    if (k < %outputs%) {
+        int t = i - k * %points%;
+        float4 result = float4(0.0, 0.0, 0.0, 0.0);
+%fetches%%calls%        lobelia_results[i] = result;
+    }
+}
+)";
+
+constexpr std::string_view kWgslMain = R"(
+@group(0) @binding(0) var<storage, read> lobelia_points: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> lobelia_results: array<vec4f>;
+@compute @workgroup_size(%group%)
+fn lobelia_main(@builtin(global_invocation_id) id: vec3u)
+{
+    let i = i32(id.y) * %row% + i32(id.x);
+    let k = i / %points%;
+    if (k >= %outputs%) { return; }
+    let t = (i - k * %points%) * %texels%;
+    var result = vec4f(0.0);
+%fetches%%calls%    lobelia_results[i] = result;
+}
+)";
+
+std::size_t count_lines(std::string_view text) {
+  return std::size_t(std::ranges::count(text, '\n'));
+}
+
+bool is_word_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+bool is_word(std::string_view token) { return is_word_character(token[0]); }
+
+/// Words and single characters of a plain text. By hand, because std::regex takes stack for each character.
+std::vector<std::string_view> tokens_of(std::string_view text) {
+  std::vector<std::string_view> tokens;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at + 1;
+    if (is_word_character(text[at])) {
+      while (end < text.size() && is_word_character(text[end])) ++end;
+      tokens.push_back(text.substr(at, end - at));
+    } else if (text[at] > ' ') {
+      tokens.push_back(text.substr(at, 1));
+    }
+    at = end;
+  }
+  return tokens;
+}
+
+[[noreturn]] void refuse_line(const ShaderSource& source, std::string_view text, std::size_t at,
+                              std::string_view why) {
+  throw Error(ExitCode::kInput, "{}:{}: {}", source.name, 1 + count_lines(text.substr(0, at)), why);
+}
+
+/// A byte order mark belongs to the file, not to the shader.
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+/// With '\n' as the only line end. `joins`: a line that ends with '\\' goes on in the next one, and the line ends that are
+/// missing follow behind, so that the lines after keep their numbers.
+std::string joined_lines(std::string_view text, bool joins) {
+  std::string lines;
+  std::size_t missing = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool is_end = text[at] == '\n' || text[at] == '\r';
+    if (text.substr(at, 2) == "\r\n") ++at;
+    if (!is_end) {
+      lines += text[at];
+    } else if (joins && lines.ends_with('\\')) {
+      lines.pop_back();
+      ++missing;
+    } else {
+      lines.append(1 + missing, '\n');
+      missing = 0;
+    }
+  }
+  lines.append(missing, '\n');
+  return lines;
+}
+
+/// The place of the first line break from `at` on; the text's end if there is none. WGSL has more of them (3.1, "Blankspace
+/// and Line Breaks"): VT, FF, U+0085, U+2028, U+2029.
+std::size_t end_of_line(std::string_view text, std::size_t at, bool is_wgsl) {
+  std::size_t end = std::min(text.find('\n', at), text.size());
+  if (is_wgsl)
+    for (const std::string_view line_break :
+         {"\v", "\f", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9"})
+      end = std::min(text.substr(0, end).find(line_break, at), end);
+  return end;
+}
+
+/// The place behind the string of HLSL that begins at `at`, as glslang sees it: no escapes, and none beyond the line. A
+/// character's quotation mark begins none.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  if (text.substr(at, 3) == "'\"'") return at + 3;
+  if (text[at] != '"') return at;
+  const std::size_t end = text.find_first_of("\"\n", at + 1);
+  return end == text.npos ? text.size() : end + (text[end] == '"' ? 1 : 0);
+}
+
+/// The place behind the comment that begins at `at`; npos if it does not end. Those of WGSL may hold others.
+std::size_t end_of_comment(std::string_view text, std::size_t at, bool is_wgsl) {
+  if (text.substr(at, 2) == "//") return end_of_line(text, at, is_wgsl);
+  std::size_t open = 0;
+  while (at < text.size()) {
+    const std::string_view two = text.substr(at, 2);
+    if (two == "/*" && (is_wgsl || open == 0)) {
+      ++open;
+      at += 2;
+    } else if (two == "*/") {
+      at += 2;
+      if (--open == 0) return at;
+    } else {
+      ++at;
+    }
+  }
+  return text.npos;
+}
+
+/// A blank in place of each comment. The line ends in it stay where they are, but for a directive, which they would end:
+/// they follow behind it.
+std::string without_comments(const ShaderSource& source, std::string_view text) {
+  std::string plain;
+  std::size_t missing = 0;
+  char first = 0;  // of the line, but for blanks
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view two = text.substr(at, 2);
+    if (two == "//" || two == "/*") {
+      const std::size_t end = end_of_comment(text, at, source.language == ShaderText::kWgsl);
+      if (end == text.npos) refuse_line(source, text, at, "this comment does not end");
+      const std::size_t inside = count_lines(text.substr(at, end - at));
+      at = end;
+      plain += ' ';
+      if (first == '#') {
+        missing += inside;
+      } else if (inside > 0) {
+        plain.append(inside, '\n');
+        first = 0;
+      }
+      continue;
+    }
+    if (source.language == ShaderText::kHlsl)
+      if (const std::size_t end = end_of_string(text, at); end > at) {
+        plain += text.substr(at, end - at);
+        if (first == 0) first = text[at];
+        at = end;
+        continue;
+      }
+    const char c = text[at++];
+    plain += c;
+    if (c == '\n') {
+      plain.append(missing, '\n');
+      missing = 0;
+      first = 0;
+    } else if (first == 0 && c > ' ') {
+      first = c;
+    }
+  }
+  return plain;
+}
+
+/// An included file would be any that the user may read, or one that never ends.
+void refuse_includes(const ShaderSource& source, std::string_view plain) {
+  // Also where no directive can begin: a compiler may take for a comment what we take for a string.
+  for (std::size_t at = 0; (at = plain.find('#', at)) != plain.npos; ++at) {
+    const std::size_t word = plain.find_first_not_of(" \t\v\f", at + 1);
+    if (word == plain.npos) break;
+    const std::string_view rest = plain.substr(word);
+    if (rest.starts_with("include") && (rest.size() == 7 || !is_word_character(rest[7])))
+      refuse_line(source, plain, at,
+                  "#include is not allowed; a shader is one file, so put the text in its place");
+  }
+}
+
+/// The text without its #version, and the one that a driver needs for it.
+struct Version {
+  std::string line, rest;
+  std::size_t at = 0;  ///< the line of the text that had it; 0: none
+};
+Version take_version(const std::string& text, ShaderApi api) {
+  std::string rest = text;
+  std::size_t at_line = 0;
+  long long number = 0;
+  bool is_es = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const auto tokens = tokens_of(std::string_view(text).substr(at, end - at));
+    if (tokens.size() >= 3 && tokens[0] == "#" && tokens[1] == "version" &&
+        parse_integer(tokens[2], number)) {
+      is_es = (tokens.size() > 3 && tokens[3] == "es") || number == 100;
+      rest.replace(at, end - at, "");
+      at_line = 1 + count_lines(text.substr(0, at));
+      break;
+    }
+    at = end + 1;
+  }
+  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest, at_line};
+  number = std::clamp(number, is_es ? 300LL : 330LL, 999LL);
+  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest, at_line};
+}
+
+}  // namespace
+
+std::string_view vector_type(ShaderText language) {
+  constexpr std::string_view kNames[] = {"vec3", "float3", "vec3f"};
+  return kNames[std::size_t(language)];
+}
+
+std::string shader_component(std::size_t i) {
+  return fmt::format("lobelia_p{}.{}", i / 4, "xyzw"[i % 4]);
+}
+
+std::string plain_text(const ShaderSource& source) {
+  const std::string_view text = without_mark(source.text);
+  if (text.find('\0') != text.npos)
+    throw Error(ExitCode::kInput, "{}: it has zero bytes, as UTF-16 has; save it as UTF-8",
+                source.name);
+  std::string plain =
+      without_comments(source, joined_lines(text, source.language != ShaderText::kWgsl));
+  refuse_includes(source, plain);
+  return plain;
+}
+
+ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_t points,
+                           std::size_t components) {
+  const bool is_hlsl = source.language == ShaderText::kHlsl,
+             is_wgsl = source.language == ShaderText::kWgsl;
+  const std::size_t texels = texels_of_point(components);
+  std::string fetches, calls;
+  for (std::size_t t = 0; t < texels; ++t)
+    fetches += is_wgsl ? fmt::format("    var lobelia_p{0} = lobelia_points[t + {0}];\n", t)
+               : api == ShaderApi::kEgl
+                   ? fmt::format(
+                         "    vec4 lobelia_p{0} = texelFetch(lobelia_points, ivec2((t + {0}) "
+                         "% {1}, (t + {0}) / {1}), 0);\n",
+                         t, kRunnerWidth)
+                   : fmt::format("        {1} lobelia_p{0} = lobelia_points[t].texels[{0}];\n", t,
+                                 is_hlsl ? "float4" : "vec4");
+  for (std::size_t k = 0; k < source.calls.size(); ++k) {
+    // WGSL has no overloads, but vec3f() of a number and of a vector.
+    const std::string value = is_wgsl ? fmt::format("vec4f(vec3f({}), 1.0)", source.calls[k])
+                                      : fmt::format("lobelia_as_four({})", source.calls[k]);
+    calls += fmt::format("    {}{{ result = {}; }}\n",
+                         source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "", value);
+  }
+  std::string begin, text = plain_text(source);
+  std::size_t version_line = 0;
+  if (is_wgsl) {
+    // WGSL has no directives, and ends lines at characters that plain_text() does not know.
+    text = without_mark(source.text);
+  } else if (!is_hlsl) {
+    Version version = take_version(text, api);
+    begin = version.line;
+    if (begin.find(" es") != std::string::npos) begin += "precision highp float;\n";
+    if (functions_in(version.rest).contains("main")) begin += "#define main lobelia_main_of_file\n";
+    text = std::move(version.rest);
+    version_line = version.at;
+  }
+  ShaderProgram program{source.name, "", count_lines(begin), 0, version_line};
+  if (text.empty() || text.back() != '\n') text += '\n';
+  program.lines = count_lines(text);
+  const std::string_view main = is_wgsl                  ? kWgslMain
+                                : is_hlsl                ? kHlslMain
+                                : api == ShaderApi::kEgl ? kFragmentMain
+                                                         : kGlslComputeMain;
+  program.bytes = begin + text +
+                  (is_hlsl || is_wgsl ? "" : "#undef main\nprecision highp float;\n") +
+                  fill((is_wgsl ? "" : std::string(kAsFour)) + std::string(main),
+                       {{"vec4", is_hlsl ? "float4" : "vec4"},
+                        {"vec3", is_hlsl ? "float3" : "vec3"},
+                        {"width", std::to_string(kRunnerWidth)},
+                        {"group", std::to_string(kGroupSize)},
+                        {"row", std::to_string(kGroupSize * kGroupsInRow)},
+                        {"points", std::to_string(points)},
+                        {"outputs", std::to_string(source.calls.size())},
+                        {"texels", std::to_string(texels)},
+                        {"fetches", fetches},
+                        {"calls", calls}});
+  return program;
+}
+
+std::set<std::string> functions_in(std::string_view plain) {
+  const std::vector<std::string_view> tokens = tokens_of(plain);
+  // For each token the first one from it on that ends parameters. Sought from each name anew, it would take for ever.
+  std::vector<std::size_t> ends(tokens.size() + 1, tokens.size());
+  for (std::size_t i = tokens.size(); i-- > 0;)
+    ends[i] = tokens[i] == ")" || tokens[i] == ";" || tokens[i] == "{" ? i : ends[i + 1];
+  std::set<std::string> names;
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
+    if (!is_word(tokens[i]) || !is_word(tokens[i - 1]) || tokens[i + 1] != "(" ||
+        tokens[i - 1] == "else" || tokens[i - 1] == "return")
+      continue;
+    const std::size_t at = ends[i + 2];
+    // Behind the parameters HLSL may have a semantic, and WGSL has a type.
+    constexpr std::size_t kMostBehind = 12;
+    for (std::size_t k = at + 1; k < std::min(tokens.size(), at + kMostBehind); ++k) {
+      if (tokens[k] == "{") names.emplace(tokens[i]);
+      if (tokens[k] == "{" || tokens[k] == ";" || tokens[k] == ")") break;
+    }
+  }
+  return names;
+}
+
+std::string compiler_message(const std::string& log, const ShaderProgram& program) {
+  // Mesa: "0:12(5): error: WORDS"; NVIDIA: "0(12) : error C1: WORDS"; glslang: "ERROR: FILE:12: WORDS".
+  static const std::regex mesa("^[0-9]+:([0-9]+)\\([0-9]+\\): error: (.*)$"),
+      nvidia("^[0-9]+\\(([0-9]+)\\) : error (.*)$"), glslang("^ERROR: (?:.*:)?([0-9]+): (.*)$");
+  for (std::string line : split(log, "\n")) {
+    constexpr std::size_t kLongest = 500;  // std::regex takes stack for each character
+    line.resize(std::min(line.size(), kLongest));
+    std::smatch found;
+    if (!std::regex_match(line, found, mesa) && !std::regex_match(line, found, nvidia) &&
+        !std::regex_match(line, found, glslang))
+      continue;
+    const std::size_t at = std::stoul(found[1].str().substr(0, 9));
+    const std::string words = printable(found[2].str(), 200);
+    if (at > program.first_line && at <= program.first_line + program.lines)
+      return fmt::format("{}:{}: {}", program.name, at - program.first_line, words);
+    if (at > 0 && at <= program.first_line && program.version_line > 0)
+      return fmt::format("{}:{}: {}", program.name, program.version_line, words);
+    return fmt::format("{}: the call of the function does not compile: {}", program.name, words);
+  }
+  return fmt::format("{}: the compiler refuses it: {}", program.name,
+                     printable(log.empty() ? "no reason given" : log, 200));
+}
+
+}  // namespace lobelia
