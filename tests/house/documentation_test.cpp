@@ -220,7 +220,7 @@ TEST_F(Site, IsRefusedWithADeadLinkOrAForeignFile) {
     const Ran made = make_site(scratch_.path(), scratch_ / "site");
     return made.exit_code == 0 ? "made" : made.output;
   };
-  EXPECT_EQ(refused("[E](e.md#e) [F](../scripts/docs)"), "made");
+  EXPECT_EQ(refused("[E](e.md#e) [F](../tools/docs)"), "made");
   EXPECT_THAT(refused("[F](f.md)"), HasSubstr("f.md"));
   EXPECT_THAT(refused("[E](e.md#f)"), HasSubstr("e.md#f"));
   EXPECT_THAT(refused("<a href=\"x.html\">X</a>"), HasSubstr("x.html leads nowhere"));
