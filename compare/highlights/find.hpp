@@ -11,7 +11,7 @@
 //               core    those of them above base + height / 2
 //               ring    some of those beyond, between 1.3 and 2.5 of their radius, within height / 4 of the base
 // Kept:         a highlight of at least kFewestPixelsOfOne pixels whose height is a quarter of its own peak, and that
-// stands out
+//               stands out
 //               from noise and roughness (slack.hpp). No threshold depends on the brightest pixel, but for one on light
 //               that no exposure would show.
 // Work:         bounded: a large picture is first reduced to the largest values of squares, 2^20 at the most. At most

@@ -4,8 +4,8 @@
 // Formula:      angle: atan2(|a x b|, a.b) in degrees, of pixels where both are longer than 1e-3 of the reference's longest,
 //               0 of the others. length: | |a| - |b| | / the reference's longest, or a's if all of the reference's are 0.
 //               Mean, 95th percentile (nearest rank) and maximum over all pixels.
-// Input:        two or three components as stored; a third that is missing is 0. Deviations:   short vectors have no
-// angle, because rounding alone turns them; where one alone is short, the lengths differ.
+// Input:        two or three components as stored; a third that is missing is 0.
+// Deviations:   short vectors have no angle, because rounding alone turns them; where one alone is short, the lengths differ.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

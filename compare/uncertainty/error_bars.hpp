@@ -20,7 +20,7 @@
 //               errors (noise.hpp) and the c that all values together exceed in so many pairs. So a firefly that a
 //               replicate has is no difference.
 // Heavy tails:  noise with fireflies, turned into dark spots by a draw, hardly shows on a dark surface, so its floor
-// would be
+//               would be
 //               too low. Such a floor is not known: low is 0, but for signed figures and the largest of differences.
 // Exact for:    norms: mae, rmse, mse, max_abs, psnr. The others are nearly norms;
 //               tests/compare/uncertainty_test.cpp measures their coverage, and `lobelia verify verdicts` the verdicts.

@@ -9,8 +9,8 @@
 //
 // Sources: mitsuba3 src/integrators/moment.cpp; pbrt-v4 src/pbrt/film.cpp (GBufferFilm) and util/math.h (VarianceEstimator);
 //          Blender 2.79 intern/cycles/render/buffers.cpp (get_denoising_pass_rect).
-// n:       samples per pixel. pbrt and Cycles 2.80 write it into the file. pbrt:    its variance is that of the sensor:
-// of X, Y and Z for the default sensor, where the picture is R, G and B. How they
+// n:       samples per pixel. pbrt and Cycles 2.80 write it into the file.
+// pbrt:    its variance is that of the sensor: of X, Y and Z for the default sensor, where the picture is R, G and B. How they
 //          vary together is not in the file. So the error of R is the upper bound sum |M| error(X, Y, Z), by the rows of the
 //          matrix M from XYZ to Rec. 709: for grey noise too large by 5.2 in R, 2.8 in G and 1.4 in B. Samples that hit no
 //          surface are left out of it.

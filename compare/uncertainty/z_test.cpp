@@ -38,6 +38,8 @@ double level_of_each(int width, int height, double significance, double tests) {
   return sidak(sidak(significance, sizes), tests);
 }
 
+bool has_heavy_tails(const PictureNoise* noise) { return noise && noise->has_heavy_tails(); }
+
 class Test {
  public:
   explicit Test(const MetricInput& input)
@@ -47,8 +49,7 @@ class Test {
         height_(input.a.height()),
         floor_(input.tolerance ? input.tolerance->of_peak * peak_value(input.b) : 0),
         critical_(level_of_single_values(width_, height_, noise_.significance)),
-        trusts_own_(!(noise_.a && noise_.a->has_heavy_tails()) &&
-                    !(noise_.b && noise_.b->has_heavy_tails())) {
+        trusts_own_(!has_heavy_tails(noise_.a) && !has_heavy_tails(noise_.b)) {
     result_.critical = critical_.normal();
   }
 
@@ -102,11 +103,12 @@ class Test {
   /// has at least their freedom, not a sum over pixels.
   ValueError error_of(const NoisySum& sum) const {
     double independent = sum.cautious, squares = sum.cautious_squares;
-    const bool is_known = sum.own > 0 && sum.own * sum.own >= kEnoughFreedom * sum.own_squares;
-    // Under heavy tails few pixels' replicates seldom show how much their mean errs.
-    if (is_known && (trusts_own_ || sum.own >= sum.cautious)) {
-      independent = sum.own;
-      squares = sum.own_squares;
+    if (sum.own > 0 && sum.own * sum.own >= kEnoughFreedom * sum.own_squares) {
+      // Under heavy tails the replicates of few pixels seldom show how much their mean errs.
+      const double variance =
+          trusts_own_ ? sum.own : (sum.own + std::max(sum.own, sum.cautious)) / 2;
+      independent = variance;
+      squares = sum.own_squares * (variance / sum.own) * (variance / sum.own);
     } else if (independent > 0) {
       squares = std::min(squares, independent * independent / least_independent_freedom());
     }

@@ -10,8 +10,8 @@
 //               is visible in their sum. The variance of a sum is the sum of variances; if pixels err
 //               together, the square of the sum of errors, which is its upper bound.
 // Errors:       the cautious ones of small squares. From 8 pixels a side on, a sum of the replicates' own variances is known
-//               well enough: it counts if it has 16 degrees of freedom (Satterthwaite's). Of regions under heavy tails the
-//               larger counts.
+//               well enough: it counts if it has 16 degrees of freedom (Satterthwaite's). Under heavy tails that of a
+//               region is halfway to the cautious one, if that is larger.
 // Patterns:     sums weighted by what a brighter, moved or wider picture would change (patterns.hpp).
 // Level:        each size has an equal part of it, as has each pattern, and its tests share that part; all by Sidak. So the
 //               few sums over large squares need not be as rare as one of all values. The z of one is that of a

@@ -46,7 +46,7 @@ TEST_F(SlurmCluster, IsReportedAndNotWaitedForWhenDrained) {
   cluster.drain("n[1-3]");
   options.stall = std::chrono::seconds(1);
   EXPECT_THAT(error_words(ExitCode::kEngine, [&] { run_on_slurm(toy.work(), options); }),
-              AllOf(HasSubstr("3 drain"), HasSubstr("State=RESUME")));
+              AllOf(HasSubstr("n1 is drain"), HasSubstr("State=RESUME")));
   cluster.resume("n[1-3]");
   const auto outcome = run_on_slurm(toy.work(), options);  // what it left in the queue
   EXPECT_TRUE(outcome.attached);
