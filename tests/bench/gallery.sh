@@ -3,7 +3,7 @@
 set -euo pipefail
 program=$(realpath "$1")
 shift
-cd "$(dirname "$0")/../gallery/web"
+cd "$(dirname "$0")/../../gallery/web"
 for need in node chromium; do
   command -v "$need" > /dev/null || { echo "gallery: skipped, no program '$need'"; exit 0; }
 done

@@ -21,7 +21,7 @@ def test_the_wheel_works_where_it_is_unpacked(tmp_path):
     pytest.importorskip("pip")
     build = os.environ["LOBELIA_BUILD"]
     made = subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-index", "--no-deps", "--wheel-dir",
-                           tmp_path, "--config-settings", f"build={build}", ROOT / "python"],
+                           tmp_path, "--config-settings", f"build={build}", ROOT / "program/python"],
                           capture_output=True, text=True)  # fmt: skip
     assert made.returncode == 0, made.stdout + made.stderr
     (wheel,) = tmp_path.glob("lobelia-*.whl")
