@@ -19,7 +19,7 @@ std::string host_name();
 /// Whether /proc has our process IDs: not in a PID namespace without a /proc of its own.
 bool proc_has_our_numbers();
 
-/// What /proc/PID/stat tells of a process.
+/// The part of /proc/PID/stat that tells one process from another.
 struct ProcessStat {
   char state = 0;           ///< 'R', 'S', ...; 0: unknown
   std::uint64_t start = 0;  ///< in ticks since the machine was started

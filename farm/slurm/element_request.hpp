@@ -1,4 +1,4 @@
-// What the elements of a run ask Slurm for.
+// The resources that each element of a run asks Slurm for.
 #pragma once
 
 #include <fcntl.h>

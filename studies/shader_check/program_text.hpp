@@ -27,7 +27,7 @@ std::set<std::string> functions_in(std::string_view plain);
 /// A compiler's first error in one line: "mine.glsl:12: 'foo' : undeclared identifier".
 std::string compiler_message(const std::string& log, const ShaderProgram& program);
 
-// What run_shaders.cpp, run_webgpu.cpp and spirv.cpp share.
+// Shared by run_shaders.cpp, run_webgpu.cpp and spirv.cpp.
 
 /// An exit code over this is 128 + the signal that ended the program.
 inline constexpr int kSignalBase = 128;

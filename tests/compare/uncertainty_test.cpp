@@ -259,6 +259,22 @@ TEST(ZTest, FindsHighlightChangesHiddenFromRegions) {
   EXPECT_GE(found_of([&](double u, double v) { return highlight(u, v, 1.06); }), kTrials - 1);
 }
 
+TEST(ZTest, TrustsAQuietSquareLessUnderHeavyTails) {
+  constexpr int kSide = 16;
+  const Image b = fixtures::flat(kSide, kSide, 5, 5, 5);
+  Image a = b;
+  for (int y = 0; y < kSide / 2; ++y)
+    for (int x = 0; x < kSide / 2; ++x) a.pixel(x, y)[0] += 0.9f;
+  PictureNoise noise = fixtures::even_noise(kSide, kSide, 1);
+  noise.cautious = fixtures::flat(kSide, kSide, 3, 3, 3);
+  // 64 times 0.9 is 7.2 errors of the replicates, and 3.2 of what is halfway to the cautious ones.
+  const ZTest light = test_of(a, b, {&noise, nullptr});
+  EXPECT_EQ(light.regions, 1);
+  EXPECT_EQ(light.size, kSide / 2);
+  noise.fireflies = 2 * kHeavyTails;
+  EXPECT_FALSE(found(test_of(a, b, {&noise, nullptr})));
+}
+
 TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
   const Image b = fixtures::highlight(20, 13, 3, 1);
   const PictureNoise none = fixtures::even_noise(20, 13, 0);
