@@ -254,18 +254,16 @@ void check_options(const ComparisonOptions& options) {
         name == kDefaultMetrics || find_metric(name) ||
         std::ranges::any_of(metrics(), [&](const Metric* m) { return is_named(*m, name); });
     if (!is_known)
-      throw Error(
-          ExitCode::kUsage,
-          fmt::format("no metric '{}'{}; there are {}, families, regions, default and all",
-                      printable(name), did_you_mean(name, names), join(limit_names(false))));
+      throw Error(ExitCode::kUsage,
+                  "no metric '{}'{}; there are {}, families, regions, default and all",
+                  printable(name), did_you_mean(name, names), join(limit_names(false)));
   };
   const auto check_limit = [&](const MetricLimit& limit) {
     const MetricOutput* output = find_metric_output(limit.metric);
     if (!output || output->better == Better::kNeither)
-      throw Error(
-          ExitCode::kUsage,
-          fmt::format("no metric '{}' to set a limit on{}; there are {}", printable(limit.metric),
-                      did_you_mean(limit.metric, names), join(limit_names(false))));
+      throw Error(ExitCode::kUsage, "no metric '{}' to set a limit on{}; there are {}",
+                  printable(limit.metric), did_you_mean(limit.metric, names),
+                  join(limit_names(false)));
     if (const std::string_view missing = missing_input(*find_metric(limit.metric), options);
         !missing.empty())
       throw Error(ExitCode::kUsage, "a limit on '{}' needs {}", limit.metric, missing);

@@ -67,17 +67,15 @@ HdrExposures automatic_exposures(const Image& reference, const HdrExposures& ask
   exposures.automatic = true;
   if (!asked.given_count) exposures.count = count_of_exposures(start, stop);
   if (start > stop)
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("the range of exposures begins at {:.4g} stops, above its end at {:.4g}", start,
-                    stop));
+    throw Error(ExitCode::kInput,
+                "the range of exposures begins at {:.4g} stops, above its end at {:.4g}", start,
+                stop);
   if (exposures.count > kMaxHdrExposures || !(std::abs(start) <= kMaxExposureStops) ||
       !(std::abs(stop) <= kMaxExposureStops))
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("the automatic range of exposures, {:.4g} to {:.4g} stops, is too wide or "
-                    "too far; give a fixed range",
-                    start, stop));
+    throw Error(ExitCode::kInput,
+                "the automatic range of exposures, {:.4g} to {:.4g} stops, is too wide or "
+                "too far; give a fixed range",
+                start, stop);
   return exposures;
 }
 

@@ -19,9 +19,8 @@ std::vector<std::vector<std::string>> csv_records(const std::string& file,
       if (at < text.size() && text[at] == '"') {
         for (++at;; ++at) {
           if (at >= text.size())
-            throw Error(
-                ExitCode::kInput,
-                fmt::format("{}: record {}: a quotation mark is not closed", file, records.size()));
+            throw Error(ExitCode::kInput, "{}: record {}: a quotation mark is not closed", file,
+                        records.size());
           if (text[at] == '"' && (++at >= text.size() || text[at] != '"')) break;
           field += text[at];
         }

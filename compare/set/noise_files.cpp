@@ -32,16 +32,14 @@ NoiseFiles::NoiseFiles(const CompareChoice& choice, ComparisonOptions& options)
       throw Error(ExitCode::kUsage, "--noise-from-layers {0}: the noise of {0} is given twice",
                   letter);
     if (side->samples > 0 && !is_from_layers(letter) && side->variance.empty())
-      throw Error(
-          ExitCode::kUsage,
-          fmt::format("--{0}-samples is for --noise-from-layers and --{0}-variance", letter));
+      throw Error(ExitCode::kUsage, "--{0}-samples is for --noise-from-layers and --{0}-variance",
+                  letter);
     for (const std::string& given : {side->error, side->variance})
       if (given == "*" || given.rfind('*') + 1 > 1)
-        throw Error(
-            ExitCode::kUsage,
-            fmt::format("{}: a * stands for the picture's path without its ending and comes "
-                        "first, as in '*_variance.exr'",
-                        printable(given)));
+        throw Error(ExitCode::kUsage,
+                    "{}: a * stands for the picture's path without its ending and comes "
+                    "first, as in '*_variance.exr'",
+                    printable(given));
   }
   if (a_.given() || b_.given() || !from_layers_.empty())
     options.noise = NoiseOptions{

@@ -350,10 +350,9 @@ Pairing pair_sequences(const PairingChoice& choice) {
     if (std::ranges::none_of(frames, [&](const Frame& frame) { return frame.set == set; }))
       throw Error(
           ExitCode::kInput,
-          fmt::format(
-              "{}: no file is a frame of this sequence{}", printable_path(choice.given[set]),
-              nearly.empty() ? ""
-                             : fmt::format("; {} nearly is one", printable_path(nearly.string()))));
+
+          "{}: no file is a frame of this sequence{}", printable_path(choice.given[set]),
+          nearly.empty() ? "" : fmt::format("; {} nearly is one", printable_path(nearly.string())));
   }
   for (const fs::path& file : misnamed)  // in a folder of both sequences it may be the other's
     if (!taken.contains(file)) pairing.misnamed.push_back(file.string());

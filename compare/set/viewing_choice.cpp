@@ -41,11 +41,10 @@ HdrExposures parse_exposures(const std::string& text) {
     range.count = int(std::clamp<long long>(count, 0, kMaxHdrExposures + 1));
   }
   if (!good)
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--exposures {}: expected START,STOP or START,STOP,COUNT, where START and "
-                    "STOP are stops or auto; for example -6,2 or auto,4 or auto",
-                    printable(text)));
+    throw Error(ExitCode::kUsage,
+                "--exposures {}: expected START,STOP or START,STOP,COUNT, where START and "
+                "STOP are stops or auto; for example -6,2 or auto,4 or auto",
+                printable(text));
   return range;
 }
 
@@ -62,9 +61,8 @@ void choose_viewing(const CompareChoice& choice, Viewing& viewing) {
   const std::string& exposure = choice.exposure;
   viewing.automatic = exposure.empty() || exposure == kAuto;
   if (!viewing.automatic && !parse_number(exposure, viewing.exposure_stops))
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--exposure {}: expected stops, for example -2, or auto", printable(exposure)));
+    throw Error(ExitCode::kUsage, "--exposure {}: expected stops, for example -2, or auto",
+                printable(exposure));
   if (!choice.exposures.empty()) {
     viewing.hdr_exposures = parse_exposures(choice.exposures);
     viewing.hdr_exposures->curve = *find_id<ToneCurve>(kToneCurveNames, choice.tone_curve);

@@ -63,9 +63,9 @@ double samples_of(const fs::path& file, const Picture& picture, const NoiseLayer
   if (samples == 0)
     throw Error(
         ExitCode::kUsage,
-        fmt::format(
-            "{} does not say how many samples a pixel has; give them with --a-samples or --b-samples",
-            file.string()));
+
+        "{} does not say how many samples a pixel has; give them with --a-samples or --b-samples",
+        file.string());
   if (!(samples >= 2))
     throw Error(ExitCode::kUsage,
                 "{} has {:g} samples a pixel; noise cannot be told from fewer than 2",

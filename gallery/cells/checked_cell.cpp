@@ -98,7 +98,7 @@ class CellReader {
 void CellReader::check_hashes() {
   for (const auto& [file, sealed] : cell_.record.files) {
     if (!hashes_.emplace(file, sealed).second)
-      throw Error(ExitCode::kInput, fmt::format("cell.json: files: {} stands there twice", file));
+      throw Error(ExitCode::kInput, "cell.json: files: {} stands there twice", file);
     if (!is_file(directory_ / file)) {
       cell_.flaws.push_back({file, CellStatus::kLost, file + " is missing."});
       continue;
@@ -191,9 +191,8 @@ void CellReader::read() {
   const records::Cell& record = cell_.record;
   check_hashes();
   if (record.id != cell_.id)
-    throw Error(ExitCode::kInput,
-                fmt::format("cell.json: id: '{}' is not the name of the cell's directory",
-                            printable(record.id)));
+    throw Error(ExitCode::kInput, "cell.json: id: '{}' is not the name of the cell's directory",
+                printable(record.id));
   cell_.status = *find_status(record.status);
   for (const auto& image : record.images) cell_.images.push_back(read_image(image));
   for (const auto& comparison : record.comparisons)

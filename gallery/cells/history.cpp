@@ -140,8 +140,8 @@ History read_history(const fs::path& run, const ShownFarm& farm,
     std::error_code ignored;
     if (fs::equivalent(directory, run, ignored))
       throw Error(ExitCode::kUsage,
-                  fmt::format("--baseline: '{}' is RUN itself; give the folder of an earlier run",
-                              printable(directory.string())));
+                  "--baseline: '{}' is RUN itself; give the folder of an earlier run",
+                  printable(directory.string()));
     if (is_link(directory / "farm.json"))
       throw Error(ExitCode::kInput,
                   (directory / "farm.json").string() + ": a link; links are not followed");

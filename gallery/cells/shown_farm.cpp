@@ -115,8 +115,8 @@ ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metri
   std::set<std::string> ids;
   for (std::size_t i = 0; i < farm.cells.size(); ++i)
     if (!ids.insert(farm.cells[i].id).second)
-      throw Error(ExitCode::kInput, fmt::format("{}: cells[{}].id: '{}' stands there twice",
-                                                path.string(), i, printable(farm.cells[i].id)));
+      throw Error(ExitCode::kInput, "{}: cells[{}].id: '{}' stands there twice", path.string(), i,
+                  printable(farm.cells[i].id));
   return farm;
 }
 

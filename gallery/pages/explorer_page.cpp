@@ -40,7 +40,7 @@ std::vector<double> spread(double reach, double exponent, std::size_t count) {
 }
 
 void require(bool condition, const char* what) {
-  if (!condition) throw Error(ExitCode::kInput, fmt::format("{}: {}", kRecord, what));
+  if (!condition) throw Error(ExitCode::kInput, "{}: {}", kRecord, what);
 }
 
 void require_unit(double unit) {

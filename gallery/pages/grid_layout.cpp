@@ -30,8 +30,8 @@ void require_drawable(const ShownFarm& farm) {
     places *= axis.values.size();
     if (places > kMaxPlaces)
       throw Error(ExitCode::kInput,
-                  fmt::format("farm.json: the axes span more than {} cells, which no page can show",
-                              kMaxPlaces));
+                  "farm.json: the axes span more than {} cells, which no page can show",
+                  kMaxPlaces);
   }
 }
 

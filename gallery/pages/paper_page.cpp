@@ -45,8 +45,8 @@ void require_drawable(records::ChartAxis& axis) {
                            std::abs(axis.to) <= kLargestDrawn && axis.from < axis.to &&
                            (!axis.logarithmic.value_or(false) || axis.from >= kSmallestDrawn);
   if (!is_drawable)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: the axis '{}' cannot be drawn", kRecord, printable(axis.label)));
+    throw Error(ExitCode::kInput, "{}: the axis '{}' cannot be drawn", kRecord,
+                printable(axis.label));
   std::erase_if(axis.ticks, [&](double tick) { return !(tick >= axis.from && tick <= axis.to); });
 }
 

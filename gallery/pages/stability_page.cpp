@@ -167,8 +167,7 @@ void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
 std::string name_of(const std::string& file) {
   const std::string name = std::filesystem::path(file).filename().string();
   if (!name.empty() && !is_plain_name(name))
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: '{}' is no plain name of a file", kRecord, printable(name)));
+    throw Error(ExitCode::kInput, "{}: '{}' is no plain name of a file", kRecord, printable(name));
   return name;
 }
 

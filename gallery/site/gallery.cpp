@@ -34,9 +34,8 @@ std::string checked_base_url(const std::string& url) {
       R"re(https?://[A-Za-z0-9.-]+(:[0-9]{1,5})?(/[A-Za-z0-9._~%-]+)*/?)re");
   if (url.empty()) return url;
   if (url.size() > 1000 || !std::regex_match(url, kUrl))
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--base-url: '{}' must be like https://example.org/a/folder", printable(url)));
+    throw Error(ExitCode::kUsage, "--base-url: '{}' must be like https://example.org/a/folder",
+                printable(url));
   return url.back() == '/' ? url : url + '/';
 }
 
@@ -159,8 +158,8 @@ ShownFarm only(const std::string& id, ShownFarm farm) {
   std::vector<std::string_view> ids;
   for (const CellEntry& cell : farm.cells) ids.push_back(cell.id);
   if (std::ranges::find(ids, id) == ids.end())
-    throw Error(ExitCode::kUsage, fmt::format("--cell: '{}' is no cell of the run{}", printable(id),
-                                              did_you_mean(id, ids)));
+    throw Error(ExitCode::kUsage, "--cell: '{}' is no cell of the run{}", printable(id),
+                did_you_mean(id, ids));
   records::Farm record = std::move(farm.record);
   std::erase_if(record.cells, [&](const records::FarmCell& cell) { return cell.id != id; });
   ShownFarm one = show(std::move(record), farm.metrics);

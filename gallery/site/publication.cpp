@@ -28,13 +28,13 @@ Form form_of(const fs::path& out) {
   const std::string ending = lower_case(out.extension().string());
   if (ending == ".zip")
     throw Error(ExitCode::kUsage,
-                fmt::format("{}: no zip is written: publish a folder, then type zip -r {} FOLDER",
-                            printable_path(out.string()), shell_quote(out.string())));
+                "{}: no zip is written: publish a folder, then type zip -r {} FOLDER",
+                printable_path(out.string()), shell_quote(out.string()));
   return ending == ".html" ? Form::kPage : Form::kFolder;
 }
 
 [[noreturn]] void refuse(const fs::path& out, const std::string& why) {
-  throw Error(ExitCode::kOutput, fmt::format("{}: {}", printable_path(out.string()), why));
+  throw Error(ExitCode::kOutput, "{}: {}", printable_path(out.string()), why);
 }
 
 bool is_our_page(const fs::path& path) {

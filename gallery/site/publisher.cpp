@@ -199,8 +199,7 @@ void Publisher::remove_stale() {
   // The list that stays names it still, so that the next publication tries again.
   for (const Removal::Kept& kept : removal.kept())
     if (kept.is_fault)
-      throw Error(ExitCode::kOutput,
-                  fmt::format("{}: cannot remove: {}", kept.path.string(), kept.why));
+      throw Error(ExitCode::kOutput, "{}: cannot remove: {}", kept.path.string(), kept.why);
 }
 
 void Publisher::finish() {

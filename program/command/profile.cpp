@@ -126,15 +126,13 @@ std::vector<records::Profile> profiles_of(const Scene& scene, const ProfileArgum
                           true, noise, shown)};
   const auto highlights = highlights_of(scene);
   if (highlights.empty())
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: no sphere of it has a highlight, or there is no light", options.scene));
+    throw Error(ExitCode::kInput, "{}: no sphere of it has a highlight, or there is no light",
+                options.scene);
   if (highlights.size() > kMostHighlights)
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: it has {} highlights, and up to {} are measured at once; choose one "
-                    "with --sphere and --light",
-                    options.scene, highlights.size(), kMostHighlights));
+    throw Error(ExitCode::kInput,
+                "{}: it has {} highlights, and up to {} are measured at once; choose one "
+                "with --sphere and --light",
+                options.scene, highlights.size(), kMostHighlights);
   std::vector<records::Profile> profiles;
   for (const auto& [sphere, light] : highlights)
     profiles.push_back(profile_scene(scene, light, sphere, images, true, noise, shown));

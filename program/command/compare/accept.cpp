@@ -92,11 +92,9 @@ void undo(const std::string& given) {
   const std::optional<fs::path> folder = newest_replaced(places);
   if (!folder) {
     const auto below = replaced_below(places);
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: no acceptance to undo in this folder, nor above it{}",
-                    printable_path(places.begin()->empty() ? "." : places.begin()->string()),
-                    below ? "; there is one in " + printable_path(below->string()) : ""));
+    throw Error(ExitCode::kInput, "{}: no acceptance to undo in this folder, nor above it{}",
+                printable_path(places.begin()->empty() ? "." : places.begin()->string()),
+                below ? "; there is one in " + printable_path(below->string()) : "");
   }
   const ReplacementOutcome done = undo_replacement(known_path(*folder, places));
   if (!verbosity().quiet)

@@ -36,9 +36,8 @@ ExitCode run_sensitivity(const CompareArguments& options) {
         {!(options.csv.empty() && options.junit.empty() && options.markdown.empty()),
          "--csv, --junit and --markdown"}})
     if (given)
-      throw Error(
-          ExitCode::kUsage,
-          fmt::format("--sensitivity takes one picture and changes it itself: leave out {}", name));
+      throw Error(ExitCode::kUsage,
+                  "--sensitivity takes one picture and changes it itself: leave out {}", name);
   if (job.pictures.given.empty()) throw Error(ExitCode::kUsage, "--sensitivity needs a picture: A");
   const std::string& picture = job.pictures.given.front();
   const bool has_table = !prints_report(options);

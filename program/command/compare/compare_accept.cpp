@@ -349,11 +349,10 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   std::set<fs::path> replaced;
   for (const NewReference& one : list)
     if (!replaced.insert(one.place).second)
-      throw Error(
-          ExitCode::kUsage,
-          fmt::format("--accept: {} would be replaced by several pictures; leave one set to "
-                      "judge",
-                      printable_path(one.to.string())));
+      throw Error(ExitCode::kUsage,
+                  "--accept: {} would be replaced by several pictures; leave one set to "
+                  "judge",
+                  printable_path(one.to.string()));
   if (!ask(list)) return false;
   std::vector<Replacement> files;
   for (const NewReference& one : list)
