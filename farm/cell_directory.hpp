@@ -1,7 +1,7 @@
 // A cell's directory: the files of its results, as links into the cache, and cell.json.
 #pragma once
 
-#include "base/system/group_flush.hpp"
+#include "farm/group_flush.hpp"
 #include "farm/job_states.hpp"
 
 namespace lobelia {

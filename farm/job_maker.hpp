@@ -7,10 +7,10 @@
 #include <ctime>
 
 #include "base/system/files.hpp"
-#include "base/system/group_flush.hpp"
 #include "base/system/host.hpp"
 #include "base/words/text.hpp"
 #include "farm/failed_jobs.hpp"
+#include "farm/group_flush.hpp"
 #include "farm/job_board.hpp"
 #include "farm/make_result.hpp"
 #include "reference_scenes/engine_program.hpp"

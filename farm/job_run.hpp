@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "base/records/cluster.hpp"
-#include "base/system/group_flush.hpp"
+#include "farm/group_flush.hpp"
 #include "farm/job_states.hpp"
 
 namespace lobelia {

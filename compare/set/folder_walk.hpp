@@ -12,8 +12,8 @@
 #include "base/system/error.hpp"
 #include "base/system/files.hpp"
 #include "base/system/no_resources.hpp"
-#include "base/system/replacement.hpp"
 #include "base/words/text.hpp"
+#include "compare/accept/replacement.hpp"
 #include "compare/set/pairing.hpp"
 
 namespace lobelia {

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "base/system/replacement.hpp"
+#include "compare/accept/replacement.hpp"
 #include "tests/cli/compare_pictures_fixture.hpp"
 
 namespace lobelia {

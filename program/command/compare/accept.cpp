@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/system/files.hpp"
-#include "base/system/replacement.hpp"
 #include "base/words/text.hpp"
+#include "compare/accept/replacement.hpp"
 #include "program/command/commands.hpp"
 #include "program/command/common_options.hpp"
 #include "program/command/compare/compare_options.hpp"

@@ -13,8 +13,8 @@
 #include "base/pictures/image_io.hpp"
 #include "base/pictures/image_values.hpp"
 #include "base/system/removal.hpp"
-#include "base/system/replacement.hpp"
 #include "base/words/text.hpp"
+#include "compare/accept/replacement.hpp"
 #include "program/command/compare/compare_arguments.hpp"
 #include "program/command/compare/replaced_references.hpp"
 

@@ -1,4 +1,4 @@
-// Where references lie, and what acceptances have replaced there (base/system/replacement.hpp).
+// Where references lie, and what acceptances have replaced there (compare/accept/replacement.hpp).
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/system/replacement.hpp"
+#include "compare/accept/replacement.hpp"
 #include "compare/set/pairing.hpp"
 
 namespace lobelia::cli {

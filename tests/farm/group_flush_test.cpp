@@ -1,4 +1,4 @@
-#include "base/system/group_flush.hpp"
+#include "farm/group_flush.hpp"
 
 #include <atomic>
 

@@ -1,7 +1,7 @@
 // A replacement trusts neither the files of a killed process, nor their directory, nor its journal, without a check.
-#include "base/system/replacement.hpp"
-#include "base/system/replacement_store.hpp"
-#include "tests/base/replacement_fixture.hpp"
+#include "compare/accept/replacement.hpp"
+#include "compare/accept/replacement_store.hpp"
+#include "tests/compare/replacement_fixture.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,4 +1,4 @@
-// Prepares a replacement of files (base/system/replacement.hpp), and looks at one that was interrupted.
+// Prepares a replacement of files (compare/accept/replacement.hpp), and looks at one that was interrupted.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/system/error.hpp"
-#include "base/system/held_files.hpp"
 #include "base/system/interrupt.hpp"
-#include "base/system/replacement.hpp"
-#include "base/system/replacement_store.hpp"
+#include "compare/accept/held_files.hpp"
+#include "compare/accept/replacement.hpp"
+#include "compare/accept/replacement_store.hpp"
 
 namespace lobelia {
 

@@ -1,4 +1,4 @@
-#include "base/system/replacement.hpp"
+#include "compare/accept/replacement.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,11 +12,11 @@
 
 #include "base/system/byte_locks.hpp"
 #include "base/system/error.hpp"
-#include "base/system/held_files.hpp"
 #include "base/system/interrupt.hpp"
 #include "base/system/removal.hpp"
-#include "base/system/replacement_gathering.hpp"
-#include "base/system/replacement_store.hpp"
+#include "compare/accept/held_files.hpp"
+#include "compare/accept/replacement_gathering.hpp"
+#include "compare/accept/replacement_store.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

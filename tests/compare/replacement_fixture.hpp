@@ -9,7 +9,7 @@
 
 #include "base/system/error.hpp"
 #include "base/system/files.hpp"
-#include "base/system/replacement.hpp"
+#include "compare/accept/replacement.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"
 

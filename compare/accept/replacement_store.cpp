@@ -1,4 +1,4 @@
-#include "base/system/replacement_store.hpp"
+#include "compare/accept/replacement_store.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "base/system/error.hpp"
-#include "base/system/held_files.hpp"
 #include "base/system/interrupt.hpp"
 #include "base/system/no_resources.hpp"
-#include "base/system/replacement.hpp"
 #include "base/words/text.hpp"
+#include "compare/accept/held_files.hpp"
+#include "compare/accept/replacement.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 
 #include <cerrno>
 
-#include "tests/base/replacement_fixture.hpp"
+#include "tests/compare/replacement_fixture.hpp"
 
 namespace lobelia::faults {
 namespace {

@@ -1,7 +1,7 @@
 // Replacing files of a folder: all or none, whatever fails or ends the process, and back again.
-#include "base/system/replacement.hpp"
+#include "compare/accept/replacement.hpp"
 
-#include "tests/base/replacement_fixture.hpp"
+#include "tests/compare/replacement_fixture.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/system/held_files.hpp"
+#include "compare/accept/held_files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

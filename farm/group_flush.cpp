@@ -1,4 +1,4 @@
-#include "base/system/group_flush.hpp"
+#include "farm/group_flush.hpp"
 
 #include <fcntl.h>
 #include <linux/magic.h>

@@ -1,4 +1,4 @@
-// The directory that a replacement of files needs in their folder (base/system/replacement.hpp), and the journal in it.
+// The directory that a replacement of files needs in their folder (compare/accept/replacement.hpp), and the journal in it.
 #pragma once
 
 #include <cstddef>
