@@ -63,21 +63,5 @@ TEST(Budget, HoldsTheLinesOfTheTests) { EXPECT_LE(lines_of_tests(kRoot), kLinesO
 
 TEST(Budget, HoldsTheWordsOfTheDocs) { EXPECT_LE(words_of_docs(kRoot), kWordsOfDocs); }
 
-TEST(Budget, CountsWhatIsWrittenAndNothingElse) {
-  Scratch tree;
-  write(tree / "farm/a.cpp", "1\n2\n3\n");
-  write(tree / "gallery/web/src/style.css", "4\n");
-  write(tree / "gallery/web/src/records.ts", "made\n");
-  write(tree / "gallery/web/dist/all.css", "bundled\n");
-  write(tree / "farm/data.json", "{}\n");
-  write(tree / "tests/farm/a_test.cpp", "1\n2\n");
-  write(tree / "README.md", "one two\n");
-  write(tree / "docs/howto/three.md", "three\n\nfour");
-  write(tree / "docs/metrics.md", "made by the program\n");
-  EXPECT_EQ(lines_of_program(tree.path()), 4);
-  EXPECT_EQ(lines_of_tests(tree.path()), 2);
-  EXPECT_EQ(words_of_docs(tree.path()), 4);
-}
-
 }  // namespace
 }  // namespace house
