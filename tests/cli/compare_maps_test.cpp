@@ -1,4 +1,4 @@
-// `lobelia compare`: pictures of differences, the histogram of FLIP, and how the pictures are looked at.
+// `lobelia compare`: pictures of differences, and how the pictures are looked at.
 #include "tests/cli/compare_pictures_fixture.hpp"
 
 namespace lobelia {
@@ -74,20 +74,6 @@ TEST_F(CompareMaps, ScaleFlipToOneAndExposuresToTheirRange) {
   EXPECT_THAT(with({"flip.hdr.exposure", "--exposures", "-2,3"}),
               HasSubstr("flip.hdr.exposure up to 3, "));
   EXPECT_THAT(with({"flip.hdr"}), HasSubstr("--diff-of flip.hdr needs --exposures"));
-}
-
-TEST_F(CompareMaps, TheHistogramHasALineForEachBucketOrIsAPlot) {
-  const auto csv = compare({"A/far.exr", "B/far.exr", "--histogram", "h.csv"});
-  EXPECT_THAT(csv.output_tail, HasSubstr("h.csv: flip.ldr mean 0."));
-  EXPECT_EQ(std::ranges::count(text("h.csv"), '\n'), 101);
-  compare({"A/far.exr", "B/far.exr", "--histogram", "h.svg", "--histogram-of", "flip.hdr",
-           "--exposures", "auto"});
-  EXPECT_THAT(text("h.svg"), HasSubstr("weighted sum per megapixel"));
-  for (const std::vector<std::string>& bad :
-       {std::vector<std::string>{"A", "B", "--histogram", "h.csv"},
-        {"A/far.exr", "B/far.exr", "--histogram", "h.png"},
-        {"A/far.exr", "B/far.exr", "--histogram", "h.svg", "--histogram-of", "flip.hdr"}})
-    EXPECT_EQ(compare(bad).exit_code, 2) << bad.back();
 }
 
 TEST_F(CompareMaps, TakeExposuresWithOneFreeEnd) {

@@ -2,7 +2,6 @@
 #include "base/system/error.hpp"
 #include "compare/compare.hpp"
 #include "compare/maps/difference_map.hpp"
-#include "compare/maps/flip_histogram.hpp"
 #include "compare/metrics/flip_error.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/test.hpp"
@@ -207,46 +206,6 @@ TEST(FlipMaps, HaveTheLargestErrorOverAllExposures) {
   double sum = 0;
   for (const float error : errors) sum += double(error);
   EXPECT_NEAR(compare(a, b, options).value("flip.hdr.mean"), sum / double(errors.size()), 1e-9);
-}
-
-TEST(FlipHistogram, HasThePixelsAndTheWeightedQuantilesOfAPlainCount) {
-  const Image noise = fixtures::noise(211, 97, 4, 1.0f);
-  std::vector<float> errors;
-  for (std::size_t i = 0; i < noise.values().size(); i += 3)
-    errors.push_back(noise.values()[i] * noise.values()[i]);
-  errors.push_back(1.0f);
-  errors.push_back(0.0f);
-  const FlipHistogram histogram = flip_histogram(errors);
-  std::int64_t pixels = 0;
-  for (int bucket = 0; bucket < kFlipBuckets; ++bucket) {
-    const auto count = std::ranges::count_if(errors, [&](float error) {
-      return std::min(int(double(error) / double(0.01f)), 99) == bucket;
-    });
-    EXPECT_EQ(histogram.pixels[std::size_t(bucket)], count) << bucket;
-    EXPECT_NEAR(histogram.weighted[std::size_t(bucket)],
-                double(count) * (bucket + 0.5) / 100 * 1048576 / double(errors.size()), 1e-6);
-    pixels += count;
-  }
-  EXPECT_EQ(pixels, std::int64_t(errors.size()));
-  // A weighted quantile: the errors up to it hold its share of all light, and without it they do not.
-  double all = 0;
-  for (const float error : errors) all += double(error);
-  for (const auto& [share, quantile] : {std::pair(0.25, histogram.first_quartile),
-                                        {0.5, histogram.median},
-                                        {0.75, histogram.third_quartile}}) {
-    double below = 0, up_to = 0;
-    for (const float error : errors) {
-      if (double(error) < quantile) below += double(error);
-      if (double(error) <= quantile) up_to += double(error);
-    }
-    EXPECT_LE(below, share * all);
-    EXPECT_GT(up_to, share * all);
-  }
-  EXPECT_NEAR(histogram.mean, all / double(errors.size()), 1e-12);
-  EXPECT_EQ(histogram.least, 0);
-  EXPECT_EQ(histogram.largest, 1);
-  EXPECT_EQ(flip_histogram({}).mean, 0);
-  EXPECT_EQ(flip_histogram(std::vector<float>(9, 0.0f)).median, 0);
 }
 
 TEST(HdrFlip, TakesItsRangeFromTheMedianOfLitPixels) {

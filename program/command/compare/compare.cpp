@@ -30,7 +30,6 @@ ExitCode run_sensitivity(const CompareArguments& options) {
         {!job.c.empty(), "--reference-floor"},
         {job.comparison.noise.has_value(), "the noise of a picture"},
         {!options.difference.path.empty(), "--diff-image"},
-        {!options.difference.histogram.empty(), "--histogram"},
         {options.accept, "--accept"},
         {!job.pictures.also_accepted.empty(), "--also-accept"},
         {!(options.csv.empty() && options.junit.empty() && options.markdown.empty()),

@@ -8,7 +8,6 @@
 #include "base/system/standard_streams.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/maps/difference_map.hpp"
-#include "compare/maps/flip_histogram.hpp"
 #include "program/command/compare/compare_pictures.hpp"
 #include "program/command/options.hpp"
 
@@ -94,26 +93,12 @@ void DifferencePicture::add_to(CLI::App& command) {
       ->needs(picture);
   output.add_flag("--diff-only-failed", only_failed, "Write none for a pair that passes")
       ->needs(picture);
-  auto* to = output.add("--histogram", histogram, "FILE.svg|FILE.csv",
-                        "Write the weighted histogram of FLIP's errors, as NVIDIA's FLIP has it");
-  output
-      .add_choice("--histogram-of", histogram_of, {"flip.ldr", "flip.hdr"}, "Which FLIP that is of")
-      ->needs(to);
 }
 
 void DifferencePicture::check(bool folders, bool has_exposures) const {
-  const auto refuse_without_exposures = [&](const char* option, const std::string& id) {
-    if (map_of(id).needs_exposures && !has_exposures)
-      throw Error(ExitCode::kUsage, "{} {} needs --exposures", option, id);
-  };
-  if (!histogram.empty()) {
-    refuse_without_exposures("--histogram-of", histogram_of);
-    if (folders) throw Error(ExitCode::kUsage, "--histogram is for two pictures, not for folders");
-    if (histogram.extension() != ".svg" && histogram.extension() != ".csv")
-      throw Error(ExitCode::kUsage, "--histogram {} must end in .svg or .csv", histogram.string());
-  }
   if (path.empty()) return;
-  refuse_without_exposures("--diff-of", of);
+  if (map_of(of).needs_exposures && !has_exposures)
+    throw Error(ExitCode::kUsage, "--diff-of {} needs --exposures", of);
   if (of == kChannels && !colour_map.empty())
     throw Error(ExitCode::kUsage,
                 "--diff-colours is for one value a pixel; choose it with --diff-of");
@@ -166,25 +151,9 @@ void DifferencePicture::write(const fs::path& file, const Image& a, const Image&
       colour.to, largest);
 }
 
-void DifferencePicture::write_histogram(const Image& a, const Image& b,
-                                        const Comparison& comparison) const {
-  if (histogram.empty() || comparison.verdict == Verdict::kNonFinite ||
-      lacks_exposures(map_of(histogram_of), comparison.viewing, histogram))
-    return;
-  const FlipHistogram counted = flip_histogram(values_of(histogram_of, a, b, comparison.viewing));
-  write_file(histogram,
-             histogram.extension() == ".csv"
-                 ? histogram_csv(counted)
-                 : histogram_svg(counted, histogram_of == "flip.hdr" ? "HDR-FLIP" : "LDR-FLIP"));
-  say("{}: {} mean {:.6f}, weighted median {:.6f}, weighted quartiles {:.6f} and {:.6f}, least {:.6f}, "
-      "largest {:.6f}\n",
-      printable_path(histogram.string()), histogram_of, counted.mean, counted.median,
-      counted.first_quartile, counted.third_quartile, counted.least, counted.largest);
-}
-
 SetReport compare_and_show(const CompareJob& job, const DifferencePicture& wanted,
                            const Pairing& pairing, const std::function<void(std::size_t)>& done) {
-  if (wanted.path.empty() && wanted.histogram.empty()) return compare_pairs(job, pairing, done);
+  if (wanted.path.empty()) return compare_pairs(job, pairing, done);
   const bool one = is_one_pair(pairing);
   const auto write = [&](const PairReport& pair, const Image& a, const Image& b,
                          std::optional<double> of_set) {
@@ -198,7 +167,6 @@ SetReport compare_and_show(const CompareJob& job, const DifferencePicture& wante
   std::map<std::pair<std::size_t, std::size_t>, double> largest;  // by row and set
   SetReport report = compare_pairs(job, pairing, done,
                                    [&](const PairReport& pair, const Image& a, const Image& b) {
-                                     if (one) wanted.write_histogram(a, b, *pair.comparison);
                                      if (!wanted.is_wanted(pair.verdict())) return;
                                      if (at_once) return write(pair, a, b, std::nullopt);
                                      const double own = wanted.largest(a, b, *pair.comparison);

@@ -59,7 +59,6 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
   std::vector<fs::path> reports, pictures;
   for (const std::string& file : {options.json, options.csv, options.junit, options.markdown})
     if (!file.empty() && file != kStdout) reports.emplace_back(file);
-  if (!options.difference.histogram.empty()) reports.push_back(options.difference.histogram);
   const bool one = is_one_pair(pairing);
   if (!options.difference.path.empty()) {
     if (one) {

@@ -13,15 +13,13 @@ namespace lobelia::cli {
 /// |A - B| of each channel by itself, in its own colour.
 inline constexpr std::string_view kChannels = "channels";
 
-/// The options of `lobelia compare` on pictures of the difference, and on the histogram of FLIP.
+/// The options of `lobelia compare` on pictures of the difference.
 struct DifferencePicture {
   std::filesystem::path path;  ///< a file, .png or .exr, or of folders a folder; empty for none
   std::string of{kChannels};   ///< a difference map's id, or kChannels
   std::string colour_map;      ///< empty: the one that suits the map
   double scale = 0;            ///< the map's last colour; 0: the one that suits the map
   bool only_failed = false;    ///< none of a pair that passes
-  std::filesystem::path histogram;  ///< a file, .svg or .csv; empty for none
-  std::string histogram_of = "flip.ldr";
 
   void add_to(CLI::App& command);
   /// Throws Error(kUsage) for options that contradict each other or the pictures.
@@ -35,7 +33,6 @@ struct DifferencePicture {
   /// Writes the picture. `of_set`: the last colour, unless the scale is fixed; without it that of the largest value.
   void write(const std::filesystem::path& file, const Image& a, const Image& b,
              const Comparison& comparison, std::optional<double> of_set) const;
-  void write_histogram(const Image& a, const Image& b, const Comparison& comparison) const;
 };
 
 /// compare_pairs(), and the pictures of the differences. Throws Error(kOutput) where one cannot be written.
