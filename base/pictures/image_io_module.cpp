@@ -20,6 +20,7 @@
 #include "base/pictures/picture_file.hpp"
 #include "base/pictures/picture_layers.hpp"
 #include "base/pictures/picture_light.hpp"
+#include "base/pictures/subsampled_exr.hpp"
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
 
@@ -322,6 +323,13 @@ PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
           spec.image_bytes(true)};
 }
 
+Image read_colours(const Reader& reader, const PictureLayer& layer,
+                   const ProfiledMeaning& meaning) {
+  Image image = read_channels(reader, layer.where);
+  if (layer.has_chroma) mix_luminance_chroma(reader.path, meaning.primaries, image);
+  return image;
+}
+
 /// Whether the file's rows are those of the picture, and each needs no other.
 bool has_plain_rows(const OIIO::ImageSpec& spec, const PictureSource& source) {
   return source.format == "openexr" && spec.tile_width == 0 && source.data == source.display;
@@ -335,7 +343,7 @@ void read_in_bands(const Reader& whole, const PictureLayer& layer, const Profile
     Reader reader = whole;
     reader.first_row = y;
     reader.rows = std::min(rows, height - y);
-    Picture band{read_channels(reader, layer.where), {}, source};
+    Picture band{read_colours(reader, layer, meaning), {}, source};
     to_light(file.path, meaning, band);
     file.on_rows(band, y);
   }
@@ -351,6 +359,7 @@ void undo_orientation(const PictureBytes& file, std::size_t part, Picture& pictu
 
 Picture read(const PictureBytes& file, const std::string& layer_name) {
   const std::filesystem::path& path = file.path;
+  if (has_subsampled_channels(file.bytes)) return read_subsampled_exr(file, layer_name);
   auto input = open(file);
   const std::vector<PicturePart> parts = parts_of(file, *input);
   if (input->format_name() != std::string_view("openexr")) input = open(file);
@@ -390,7 +399,7 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
     read_in_bands(reader, layer, meaning, file, source);
     return picture;
   }
-  picture.image = read_channels(reader, layer.where);
+  picture.image = read_colours(reader, layer, meaning);
   to_light(path, meaning, picture);
   source.has_gain_map =
       format == "jpeg" && layer_name.empty() && !file.as_stored && has_gain_map(file.bytes);
@@ -402,6 +411,7 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
 }
 
 std::vector<std::string> list_layers(const PictureBytes& file) {
+  if (has_subsampled_channels(file.bytes)) return subsampled_exr_layers(file);
   return picture_layer_names(parts_of(file, *open(file)));
 }
 

@@ -59,6 +59,40 @@ bool is_tga_header(std::string_view head) {
          (byte(17) & 0xc0) == 0;
 }
 
+/// Calls `see` with the type and the value of each attribute of an EXR, in all parts. Returns false if one is longer than
+/// the file.
+template <class See>
+bool see_exr_attributes(std::string_view bytes, const See& see) {
+  if (bytes.size() < 8 || !bytes.starts_with("\x76\x2f\x31\x01")) return true;
+  constexpr char kManyParts = 0x10;
+  const bool many_parts = (bytes[5] & kManyParts) != 0;
+  std::size_t at = 8;
+  const auto text = [&]() -> std::string_view {
+    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
+    const std::string_view result = bytes.substr(at, end - at);
+    at = end + 1;
+    return result;
+  };
+  // Attributes are name, type, length, value. An empty name ends the header of a part, an empty header all headers.
+  for (bool first = true;;) {
+    const std::string_view name = text();
+    if (at >= bytes.size()) return true;
+    if (name.empty()) {
+      if (first || !many_parts) return true;
+      first = true;
+      continue;
+    }
+    first = false;
+    const std::string_view type = text();
+    if (at + 4 > bytes.size()) return true;
+    const std::uint64_t length = number_at(bytes, at, true);
+    at += 4;
+    if (length > bytes.size() - at) return false;
+    see(type, bytes.substr(at, length));
+    at += length;
+  }
+}
+
 constexpr std::string_view kBecameShorter = "it became shorter while it was read";
 
 Error not_readable(const std::filesystem::path& path, std::string_view why) {
@@ -94,33 +128,24 @@ std::string_view picture_format(std::string_view head, std::string_view footer,
 }
 
 bool is_exr_that_claims_too_much(std::string_view bytes) {
-  if (bytes.size() < 8 || !bytes.starts_with("\x76\x2f\x31\x01")) return false;
-  constexpr char kManyParts = 0x10;
-  const bool many_parts = (bytes[5] & kManyParts) != 0;
-  std::size_t at = 8;
-  // Returns the length of a text.
-  const auto pass_text = [&] {
-    const std::size_t begin = at, end = std::min(bytes.find('\0', at), bytes.size());
-    at = end + 1;
-    return end - begin;
-  };
-  // Attributes are name, type, length, value. An empty name ends the header of a part, an empty header all headers.
-  for (bool first = true;;) {
-    const bool is_end = pass_text() == 0;
-    if (at >= bytes.size()) return false;
-    if (is_end) {
-      if (first || !many_parts) return false;
-      first = true;
-      continue;
+  return !see_exr_attributes(bytes, [](std::string_view, std::string_view) {});
+}
+
+bool has_subsampled_channels(std::string_view bytes) {
+  bool found = false;
+  see_exr_attributes(bytes, [&](std::string_view type, std::string_view value) {
+    if (type != "chlist") return;
+    // A name, its end, the type, a flag, three bytes, and the sampling along x and y; an empty name ends the list.
+    constexpr std::size_t kAfterName = 16;
+    for (std::size_t at = 0; at < value.size() && value[at] != '\0';) {
+      const std::size_t end = value.find('\0', at);
+      if (end == value.npos || value.size() - end - 1 < kAfterName) return;
+      for (const std::size_t sampling : {end + 9, end + 13})
+        if (number_at(value, sampling, true) != 1) found = true;
+      at = end + 1 + kAfterName;
     }
-    first = false;
-    pass_text();
-    if (at + 4 > bytes.size()) return false;
-    const std::uint64_t length = number_at(bytes, at, true);
-    at += 4;
-    if (length > bytes.size() - at) return true;
-    at += length;
-  }
+  });
+  return found;
 }
 
 bool is_heif_of_hdr(std::string_view bytes) {

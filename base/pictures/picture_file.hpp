@@ -34,6 +34,9 @@ std::string_view picture_format(std::string_view head, std::string_view footer,
 /// it reads.
 bool is_exr_that_claims_too_much(std::string_view bytes);
 
+/// Whether an EXR has a channel with fewer values than pixels.
+bool has_subsampled_channels(std::string_view bytes);
+
 /// Whether a JPEG lacks the marker that ends its last scan, or a DPX is shorter than its header says: there the libraries
 /// fill in what is missing and report nothing. `format` is OpenImageIO's name; false for any other format.
 bool is_cut_off(std::string_view bytes, std::string_view format);

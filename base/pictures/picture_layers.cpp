@@ -77,11 +77,15 @@ std::vector<RawLayer> layers_of_part(const PicturePart& part, std::size_t index)
     const auto rgb = find_all(group, {{"r", "red"}, {"g", "green"}, {"b", "blue"}});
     auto vector = find_all(group, {{"x", "x"}, {"y", "y"}, {"z", "z"}});
     if (vector.empty()) vector = find_all(group, {{"x", "x"}, {"y", "y"}});
-    // Beside chroma Y alone would be half a picture.
+    const auto luminance_chroma = find_all(group, {{"y", "y"}, {"ry", "ry"}, {"by", "by"}});
+    // Y alone would be half a picture.
     const bool chroma = group.contains("ry") || group.contains("by");
     if (!rgb.empty())
       add(prefix, rgb, true, root);
-    else if (!vector.empty() && !root)
+    else if (!luminance_chroma.empty() && vector.empty()) {
+      add(prefix, luminance_chroma, true, root);
+      result.back().layer.has_chroma = true;
+    } else if (!vector.empty() && !root)
       add(prefix, vector, false, false);
     else if (const auto y = find_suffix(group, "y", "y"); y && vector.empty() && !chroma)
       add(prefix, {*y}, true, root);

@@ -1,10 +1,10 @@
 // Finds the layers of a picture's file by the names of its channels.
 //
 // A name is split at its last dot: "diffuse.R" is R of the layer "diffuse". R, G and B (or Red, Green, Blue, in any case)
-// with one prefix are a layer of colours; X and Y, or X, Y and Z, with a prefix are a vector; Y without X is grey. Every
-// other channel is a layer of its own, with its full name. The order of channels does not matter. In a file of several
-// parts (EXR parts, pages of a TIFF, frames of a GIF) layer names begin with the part's name, except in the part that holds
-// the picture.
+// with one prefix are a layer of colours, and so are Y, RY and BY (luminance and chroma of an EXR); X and Y, or X, Y and
+// Z, with a prefix are a vector; Y without X is grey. Every other channel is a layer of its own, with its full name. The
+// order of channels does not matter. In a file of several parts (EXR parts, pages of a TIFF, frames of a GIF) layer names
+// begin with the part's name, except in the part that holds the picture.
 #pragma once
 
 #include <span>
@@ -29,6 +29,7 @@ struct PictureLayer {
       where;                ///< channels of the part: R, G, B; a vector's two or three; or one
   bool is_colour = true;    ///< has a transfer curve, unlike alpha, depth and vectors
   std::string alpha = {};   ///< name of the layer with its alpha; "" if there is none
+  bool has_chroma = false;  ///< `where` is Y, RY and BY instead of R, G and B
 };
 
 /// All layers, with unique names: the picture if there is one, then in the file's order.

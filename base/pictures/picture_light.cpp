@@ -44,6 +44,24 @@ ColourMeaning png_meaning(const fs::path& path, const PngColour& colour) {
   return meaning;
 }
 
+void mix_luminance_chroma(const fs::path& path, const std::optional<Chromaticities>& primaries,
+                          Image& image) {
+  const auto weights = luminance_weights(primaries.value_or(kRec709Chromaticities));
+  constexpr double kLeastWeight = 1e-3;
+  if (!(weights[1] >= kLeastWeight))
+    unreadable_picture(path,
+                       "green has no luminance by its chromaticities, so that luminance and "
+                       "chroma (Y, RY, BY) are no colour");
+  const std::span<float> values = image.values();
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    const double y = double(values[i]);
+    const double red = (double(values[i + 1]) + 1) * y, blue = (double(values[i + 2]) + 1) * y;
+    values[i] = float(red);
+    values[i + 1] = float((y - weights[0] * red - weights[2] * blue) / weights[1]);
+    values[i + 2] = float(blue);
+  }
+}
+
 void decode_colours(const fs::path& path, const ColourMeaning& meaning, Picture& picture) {
   const bool is_grey = picture.source.channels.size() == 1;
   decode(meaning.curve, picture.image,

@@ -25,6 +25,11 @@ struct ColourMeaning {
 /// By the chunks of a PNG. Throws Error(kInput) for those that are not read.
 ColourMeaning png_meaning(const std::filesystem::path& path, const PngColour& colour);
 
+/// Red, green and blue of Y, RY and BY, in place: the inverse of OpenEXR's RGBAtoYCA (ImfRgbaYca.h). Throws Error(kInput)
+/// for primaries of which green has no luminance.
+void mix_luminance_chroma(const std::filesystem::path& path,
+                          const std::optional<Chromaticities>& primaries, Image& image);
+
 /// Makes the picture's colours light, and says how in its source. Throws Error(kInput) for impossible primaries.
 void decode_colours(const std::filesystem::path& path, const ColourMeaning& meaning,
                     Picture& picture);

@@ -117,6 +117,15 @@ TEST(PictureLayers, PreferRgbThenYThenTheOnlyLayer) {
   EXPECT_THAT(find_layer("", one, "beauty").where, ElementsAre(0, 1, 2));
 }
 
+TEST(PictureLayers, LuminanceAndChromaAreOneLayerOfColours) {
+  const std::vector<PicturePart> parts{{"", {"A", "BY", "RY", "Y", "Z"}}};
+  const PictureLayer layer = find_layer("", parts, "");
+  EXPECT_THAT(layer.where, ElementsAre(3, 2, 1));
+  EXPECT_TRUE(layer.is_colour && layer.has_chroma);
+  EXPECT_EQ(layer.alpha, "A");
+  EXPECT_THAT(names(parts), ElementsAre("", "A", "Z"));
+}
+
 TEST(PictureLayers, AreNamedWhereANameCouldMeanSeveral) {
   EXPECT_THAT(message({{{"", {"u", "v"}}}}, ""), HasSubstr("its channels are 'u', 'v'"));
   // Half of a picture whose colours are in RY and BY, one of which is missing.

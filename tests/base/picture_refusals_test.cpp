@@ -3,7 +3,6 @@
 #include <ImfDeepScanLineOutputPart.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
-#include <ImfRgbaFile.h>
 #include "base/pictures/image_io.hpp"
 #include "base/pictures/picture_file.hpp"
 #include "tests/base/picture_files.hpp"
@@ -31,17 +30,6 @@ TEST_F(Refusals, MeetATiffOfOneBitThatDoesNotSaySo) {
   }
   EXPECT_FALSE(is_tiff_without_bits("II*"));
   EXPECT_FALSE(is_tiff_without_bits(std::string("II*\0\x08\0\0\0\xff\xff", 10)));
-}
-
-TEST_F(Refusals, MeetAnExrOfLuminanceAndChroma) {
-  const std::string path = (directory_.path() / "a.exr").string();
-  const std::vector<Imf::Rgba> pixels(4, {0.5f, 0.5f, 0.5f});
-  {
-    Imf::RgbaOutputFile output(path.c_str(), Imf::Header(2, 2), Imf::WRITE_YC);
-    output.setFrameBuffer(pixels.data(), 1, 2);
-    output.writePixels(2);
-  }
-  EXPECT_THAT(refusal(path), HasSubstr("Subsampled channels are not supported"));
 }
 
 TEST_F(Refusals, MeetAFileThatIsCutOffAnywhere) {

@@ -36,6 +36,7 @@ void check_picture_door(std::string_view bytes) {
   is_exr_that_claims_too_much(bytes);
   is_tiff_without_bits(bytes);
   is_heif_of_hdr(bytes);
+  has_subsampled_channels(bytes);
   for (const char* format : {"jpeg", "png", "webp", "tiff", "hdr"}) {
     const int stated = stated_orientation(bytes, format, 1);
     const int left = orientation_left_by_libtiff(bytes, stated, 1);
