@@ -28,8 +28,7 @@ struct CostVariant {
   std::string name;
   Named<std::string> settings;
   Named<double> errors;
-  std::optional<MeasuredRounds> seconds;
-  std::optional<double> count;
+  MeasuredRounds seconds;
   std::optional<Named<double>> error_spreads, errors_at_most;
   std::optional<CostFacts> facts;
 };
@@ -45,7 +44,6 @@ struct CostTable {
   std::string id;
   std::string level;
   std::string title;
-  std::string unit = "s";
   std::string per;
   std::vector<CostError> errors;
   std::vector<CostVariant> variants;

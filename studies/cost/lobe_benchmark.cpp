@@ -11,7 +11,6 @@
 #include "base/words/constants.hpp"
 #include "base/words/error_time_chart.hpp"
 #include "renderer/catalogue_record.hpp"
-#include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
 namespace lobelia::cost {
@@ -150,8 +149,7 @@ std::string bracket_remark(const Table& table) {
 
 std::string time_remark(const Table& table, double copy) {
   double fastest = kInfinity;
-  for (const Variant& variant : table.variants)
-    fastest = std::min(fastest, variant.seconds->median);
+  for (const Variant& variant : table.variants) fastest = std::min(fastest, variant.seconds.median);
   return fmt::format(
       "Reading s and writing a value takes {} in float32; the fastest variant takes {:.1f} times that.",
       short_time_text(copy), fastest / copy);
@@ -207,8 +205,6 @@ std::vector<Table> measure_lobes(const Options& options) {
     tables.push_back(
         lobe_table(exponent, options.rounds(11, 41, 201), options.effort == Effort::kQuick));
   }
-  options.progress("half floats");
-  for (Table& table : half_float_tables()) tables.push_back(std::move(table));
   return tables;
 }
 

@@ -58,7 +58,7 @@ std::string order_remark(const std::vector<Variant>& variants) {
           *variants[j].facts->predicted_cost - *variants[i].facts->predicted_cost;
       if (predicted * slower >= 0) continue;
       ++reversed;
-      const double ratio = variants[i].seconds->median / variants[j].seconds->median;
+      const double ratio = variants[i].seconds.median / variants[j].seconds.median;
       worst = std::max({worst, ratio, 1 / ratio});
     }
   return fmt::format(

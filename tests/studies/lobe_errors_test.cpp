@@ -5,7 +5,6 @@
 
 #include "base/system/error.hpp"
 #include "studies/cost/benchmarks.hpp"
-#include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_variants.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/test.hpp"
@@ -270,9 +269,8 @@ TEST(LobeTable, HasEveryVariantWithItsTimeErrorsAndOperations) {
   const Table table = lobe_table(64, 1, true);
   EXPECT_EQ(table.id, "lobe-n64");
   EXPECT_EQ(table.variants.size(), lobe_variants(64).size());
-  EXPECT_TRUE(is_timed(table));
   for (const Variant& variant : table.variants) {
-    EXPECT_GT(cost_of(variant).median, 0) << variant.name;
+    EXPECT_GT(variant.seconds.median, 0) << variant.name;
     EXPECT_EQ(variant.errors.size(), table.errors.size()) << variant.name;
     for (const auto& [kind, error] : variant.errors)
       EXPECT_TRUE(std::isfinite(error)) << variant.name << ", " << kind;
@@ -292,18 +290,8 @@ TEST(LobeLevel, HasATableForEachExponent) {
   Options options;
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);
-  ASSERT_EQ(tables.size(), 4u);
+  ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[1].id, "lobe-n1024");
-  EXPECT_EQ(tables[2].id, "lobe-float16-half");
-  EXPECT_EQ(tables[3].id, "lobe-float16-mirror");
-  for (const Table& table : {tables[2], tables[3]}) {
-    EXPECT_FALSE(is_timed(table));
-    EXPECT_EQ(table.variants.size(), all_lobes().size() * 6);
-    for (const Variant& variant : table.variants) {
-      EXPECT_EQ(variant.errors.size(), kHalfExponents.size());
-      EXPECT_FALSE(variant.seconds) << variant.name;
-    }
-  }
 }
 
 }  // namespace
