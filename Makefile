@@ -40,7 +40,7 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(npm)
 	$(configure)
 	@tools/tell 'make gallery: building' '' $(build) --target lobelia lobelia_image_io
-	@tools/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
+	@tools/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
 
 screenshots: ## pictures of every view of the gallery in OUT, for a desktop and a phone, into OUT-screenshots
 	$(setup) build browser
