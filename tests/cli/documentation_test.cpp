@@ -22,17 +22,5 @@ TEST(GeneratedPages, AreAsTheProgramWritesThem) {
   EXPECT_GT(files, 10);
 }
 
-TEST(GeneratedPages, HaveFormulasThatAreTypeset) {
-  const std::string page = text_of(fs::path(LOBELIA_SOURCE_DIR) / "docs/models.md");
-  for (
-      const char* formula :
-      {R"(C = \frac{1}{2 \pi \left(M_0 - M_1\right)}, \quad S = 1)",
-       R"(M_j = \left(\frac{k}{n}\right)^{j + 1} \mathrm{B}\left(\min\left(1, \frac{n S}{k}\right); j + 1, k + 1\right))",
-       R"(\ell(s) = e^{-\frac{n \arccos\left(1 - s\right)^{2}}{2}})",
-       R"(\ell(s) = \frac{1}{\left(1 + \frac{n s \left(2 - s\right)}{2}\right)^{2}})",
-       R"(\frac{\left(n + 2\right) \left(n + 4\right)}{8 \pi \left(2^{-n / 2} + n\right)})"})
-    EXPECT_THAT(page, HasSubstr(formula));
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -1,13 +1,4 @@
 // Stdin, stdout and stderr that are closed, full, broken or not read, under every command.
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <thread>
-
-#include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/test.hpp"
@@ -135,88 +126,39 @@ TEST_F(StandardStreams, ReceiveNoPictureWhenTheyAreClosed) {
   }
 }
 
-class FullPipe {
- public:
-  FullPipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC | O_NONBLOCK) != 0) ADD_FAILURE() << "pipe2";
-    const std::array<char, 4096> filling{};
-    while (::write(ends_[1], filling.data(), filling.size()) > 0) filled_ += filling.size();
-    ::fcntl(ends_[0], F_SETFL, 0);
-    ::fcntl(ends_[1], F_SETFL, 0);  // as a program gets it
-  }
-  ~FullPipe() {
-    ::close(ends_[0]);
-    if (ends_[1] >= 0) ::close(ends_[1]);
-  }
-  FullPipe(const FullPipe&) = delete;
-  FullPipe& operator=(const FullPipe&) = delete;
-
-  /// Starts the program with it as stderr, and keeps the reading end alone.
-  pid_t start(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{LOBELIA_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    const pid_t pid = ::fork();
-    if (pid == 0) {
-      ::dup2(ends_[1], 2);
-      ::execv(argv[0], argv.data());
-      ::_exit(99);
-    }
-    ::close(ends_[1]);
-    ends_[1] = -1;
-    return pid;
-  }
-  /// The program's output, once it has ended.
-  std::string rest() const {
-    std::string all;
-    std::array<char, 4096> piece{};
-    for (ssize_t n = 0; (n = ::read(ends_[0], piece.data(), piece.size())) > 0;)
-      all.append(piece.data(), std::size_t(n));
-    return all.substr(filled_);
-  }
-
- private:
-  std::array<int, 2> ends_{-1, -1};
-  std::size_t filled_ = 0;
-};
-
-int exit_code_of(pid_t pid) {
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
+/// A full pipe, of which the shell has both ends as its descriptor 3.
+constexpr char kFullPipe[] =
+    "mkfifo pipe; exec 3<> pipe\n"
+    "dd if=/dev/zero of=pipe bs=4096 oflag=nonblock 2> /dev/null\n";
 
 TEST_F(StandardStreams, AMessageWaitsForItsReaderAndIsWhole) {
-  FullPipe pipe;
   const std::string name(2000, 'x');
-  const pid_t pid = pipe.start({"models", "--" + name, name});
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  const std::string text = pipe.rest();
-  EXPECT_EQ(exit_code_of(pid), 2);
-  EXPECT_TRUE(text.starts_with("lobelia: ")) << text;
-  EXPECT_TRUE(text.ends_with("\n")) << text;
+  const ProcessResult result =
+      run_shell(kFullPipe + std::string("\"$LOBELIA\" models --") + name + " " + name +
+                    " 2>&3 3>&- & job=$!; sleep 0.3; exec 4< pipe 3>&-; tr -d '\\0' <&4; wait $job",
+                directory_.path());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(result.output_tail.starts_with("lobelia: ")) << result.output_tail;
+  EXPECT_TRUE(result.output_tail.ends_with("\n")) << result.output_tail;
 }
 
 TEST_F(StandardStreams, EndOnSigtermDespiteAnUnreadMessage) {
-  FullPipe pipe;
-  const pid_t pid = pipe.start({"plan", "missing.xml"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(::waitpid(pid, nullptr, WNOHANG), 0) << "it has somebody to wait for";
-  ::kill(pid, SIGTERM);
-  const int code = exit_code_of(pid);  // waits for ever if it hangs
-  EXPECT_TRUE(code == 3 || code == 143) << code;
+  const ProcessResult result =
+      run_shell(kFullPipe + std::string("\"$LOBELIA\" plan missing.xml 2>&3 & job=$!; sleep 0.3\n"
+                                        "jobs > state; grep -q Running state || exit 99\n"
+                                        "kill -TERM $job; wait $job"),
+                directory_.path());
+  EXPECT_THAT(result.exit_code, testing::AnyOf(3, 143));
 }
 
 TEST_F(StandardStreams, ProgressWaitsForNobody) {
-  FullPipe pipe;
   // Interrupted while it works, and the line about that finds no room either.
-  const pid_t pid = pipe.start({"render", kScenes + "oblique_45.xml", "--width", "2048", "--height",
-                                "2048", "--samples", "65536", "-o", path("long.exr").string()});
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  ::kill(pid, SIGTERM);
-  EXPECT_EQ(exit_code_of(pid), 143);
+  const ProcessResult result = run_shell(
+      kFullPipe + std::string("\"$LOBELIA\" render \"$SCENES\"oblique_45.xml --width 2048 --height "
+                              "2048 --samples 65536 -o long.exr 2>&3 & job=$!; sleep 0.5\n"
+                              "kill -TERM $job; wait $job"),
+      directory_.path());
+  EXPECT_EQ(result.exit_code, 143);
 }
 
 }  // namespace
