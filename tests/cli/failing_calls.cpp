@@ -42,10 +42,6 @@ Function* real(const char* name) {
 extern "C" {
 FAILING(int, stat, (const char* path, struct stat* status), (path, status), path, -1)
 FAILING(int, lstat, (const char* path, struct stat* status), (path, status), path, -1)
-FAILING(ssize_t, readlink, (const char* path, char* buffer, size_t size), (path, buffer, size),
-        path, -1)
-FAILING(int, unlinkat, (int directory, const char* path, int flags), (directory, path, flags), path,
-        -1)
 FAILING(char*, getcwd, (char* buffer, size_t size), (buffer, size), "", nullptr)
 FAILING(dirent*, readdir, (DIR * directory), (directory), "", nullptr)
 FAILING(ssize_t, sendmsg, (int socket, const msghdr* message, int flags), (socket, message, flags),

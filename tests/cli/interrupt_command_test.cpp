@@ -1,32 +1,17 @@
 // Ctrl-C, SIGTERM and SIGHUP, as the program gets them: real signals at many moments of its work.
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "base/pictures/image_io.hpp"
-#include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
-
-/// Only what hangs takes so long after a signal.
-constexpr Seconds kHang{600};
-
-struct Ended {
-  int code = -1;           ///< or 128 + the signal that ended it; -1 for one that hung
-  bool was_ready = false;  ///< it had time to say how it handles signals
-  std::string errors;
-};
+/// What a program says that caught a signal. One that got it too early says nothing.
+constexpr char kInterrupted[] = "lobelia: interrupted\n";
 
 class Interrupted : public ::testing::Test {
  protected:
@@ -42,42 +27,17 @@ class Interrupted : public ::testing::Test {
     write_exr(path(name), image, {});
   }
 
-  /// Runs the program, and sends it the signal after `delay`; 0 sends none.
-  Ended run(const std::vector<std::string>& arguments, int signal, Seconds delay) {
+  /// Runs the program, and sends it the signal after so many seconds; 0 sends none.
+  ProcessResult run(const std::string& arguments, int signal = 0, double delay = 0) {
     fs::remove_all(path("out"));
     fs::create_directories(path("out"));
-    std::vector<std::string> words{LOBELIA_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    write_file(path("errors.txt"), "");  // for one that ends before it can
-    const pid_t pid = ::fork();
-    if (pid == 0) {
-      ::setenv("TMPDIR", path("tmp").c_str(), 1);
-      if (::chdir(folder_.path().c_str()) != 0) ::_exit(99);
-      ::dup2(::open("errors.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
-      ::dup2(::open("/dev/null", O_WRONLY), 1);
-      ::execv(argv[0], argv.data());
-      ::_exit(99);
-    }
-    std::this_thread::sleep_for(delay);
-    const auto sent = Clock::now();
-    if (signal != 0) ::kill(pid, signal);
-    Ended ended;
-    int status = 0;
-    while (::waitpid(pid, &status, WNOHANG) == 0) {
-      if (Clock::now() - sent > kHang) {
-        ::kill(pid, SIGKILL);
-        ::waitpid(pid, &status, 0);
-        return ended;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    ended.was_ready = WIFEXITED(status);
-    ended.errors = read_file(path("errors.txt"), 1 << 20);
-    return ended;
+    const std::string sender =
+        signal == 0
+            ? ""
+            : fmt::format("{{ sleep {}; kill -{} $$; }} > /dev/null 2>&1 &\n", delay, signal);
+    return run_shell(
+        "export TMPDIR=\"$PWD/tmp\"\n" + sender + "exec \"$LOBELIA\" " + arguments + " > /dev/null",
+        folder_.path());
   }
 
   /// Files below out/ by name, and their bytes.
@@ -101,131 +61,102 @@ class Interrupted : public ::testing::Test {
   }
 
   /// Work that takes long beyond the delays: it always ends by the signal.
-  void expect_ended_by_signals(const std::vector<std::string>& arguments) {
+  void expect_ended_by_signals(const std::string& arguments) {
     std::mt19937 random(4);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGTERM, SIGINT}) {
-      const Seconds delay(0.02 + 0.8 * double(random() % 1000) / 1000);
-      const std::string what = fmt_words(arguments) + " with signal " + std::to_string(signal) +
-                               " after " + std::to_string(delay.count()) + " s";
-      const Ended ended = run(arguments, signal, delay);
-      EXPECT_EQ(ended.code, 128 + signal) << what;
-      if (ended.was_ready) {
-        EXPECT_TRUE(ended.errors.ends_with("lobelia: interrupted\n")) << what << ended.errors;
-      }
+      const double delay = 0.02 + 0.8 * double(random() % 1000) / 1000;
+      const std::string what = fmt::format("{}, signal {} after {} s", arguments, signal, delay);
+      const ProcessResult ended = run(arguments, signal, delay);
+      EXPECT_EQ(ended.exit_code, 128 + signal) << what;
+      EXPECT_THAT(ended.output_tail, testing::AnyOf("", testing::EndsWith(kInterrupted))) << what;
       expect_nothing_left(what);
     }
   }
 
   /// Work that is short: it is ended by the signal and leaves nothing, or is done and leaves all.
-  void expect_all_or_nothing(const std::vector<std::string>& arguments, int rounds) {
-    const auto started = Clock::now();
-    const Ended whole = run(arguments, 0, Seconds(0));
-    const Seconds takes = Clock::now() - started;
-    const auto all = outputs();
-    ASSERT_FALSE(all.empty()) << fmt_words(arguments) << whole.errors;
+  void expect_all_or_nothing(const std::string& arguments) {
+    const ProcessResult whole = run(arguments);
+    const auto all = names();
+    ASSERT_FALSE(all.empty()) << arguments << whole.output_tail;
     std::mt19937 random(18);
     int ended_early = 0;
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < 40; ++i) {
       const int signal = i % 2 == 0 ? SIGINT : SIGTERM;
-      const Seconds delay(takes * 1.1 * double(random() % 10000) / 10000);
-      const std::string what = fmt_words(arguments) + " after " + std::to_string(delay.count());
-      const Ended ended = run(arguments, signal, delay);
-      if (ended.code == 128 + signal) {
+      const double delay = whole.seconds * 1.1 * double(random() % 10000) / 10000;
+      const std::string what = fmt::format("{} after {} s", arguments, delay);
+      const ProcessResult ended = run(arguments, signal, delay);
+      if (ended.exit_code == 128 + signal) {
         expect_nothing_left(what);
         ++ended_early;
       } else {
-        EXPECT_EQ(ended.code, whole.code) << what << ended.errors;
-        EXPECT_EQ(names(outputs()), names(all)) << what;
+        EXPECT_EQ(ended.exit_code, whole.exit_code) << what << ended.output_tail;
+        EXPECT_EQ(names(), all) << what;
         expect_no_temporaries(what);
       }
     }
     EXPECT_GT(ended_early, 0) << "no signal came in time";
   }
 
-  static std::vector<std::string> names(const std::map<std::string, std::string>& files) {
+  std::vector<std::string> names() const {
     std::vector<std::string> result;
-    for (const auto& [name, bytes] : files) result.push_back(name);
+    for (const auto& [name, bytes] : outputs()) result.push_back(name);
     return result;
-  }
-  static std::string fmt_words(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += word + " ";
-    return text;
   }
 
   TemporaryDirectory folder_;
 };
 
-TEST_F(Interrupted, ComparisonOfTwoFilesEndsAndLeavesNothing) {
+TEST_F(Interrupted, LongWorkEndsAndLeavesNothing) {
   noisy_picture("a.exr", 1920, 1080, 1), noisy_picture("b.exr", 1920, 1080, 2);
-  expect_ended_by_signals({"compare", "a.exr", "b.exr", "--exposures", "-10,10,100", "--json",
-                           "out/r.json", "--diff-image", "out/d.png"});
-}
-
-TEST_F(Interrupted, ComparisonOfFoldersEndsAndLeavesNothing) {
   for (int i = 0; i < 12; ++i)
     for (const char* folder : {"a/", "b/"})
       noisy_picture(folder + std::to_string(i) + ".exr", 600, 600, unsigned(i));
-  expect_ended_by_signals({"compare", "a", "b", "--exposures", "-10,10,100", "--json", "out/r.json",
-                           "--csv", "out/r.csv", "--diff-image", "out/maps"});
+  const char* const commands[] = {
+      "compare a.exr b.exr --exposures -10,10,100 --json out/r.json --diff-image out/d.png",
+      "compare a b --exposures -10,10,100 --json out/r.json --csv out/r.csv --diff-image out/maps",
+      "render \"$SCENES\"oblique_45.xml --width 4096 --height 4096 --samples 4096 -q -o out/x.exr",
+      "cost \"$SCENES\"oblique_45.xml --level lobe --level picture --thorough -q -o out",
+      "verify stability -q --json out/s.json --pictures out",
+      "verify paper --json out/p.json --plots out",
+  };
+  for (const char* arguments : commands) expect_ended_by_signals(arguments);
 }
 
-TEST_F(Interrupted, ComparisonOfFoldersLeavesAllOfItsFilesOrNone) {
+TEST_F(Interrupted, ShortWorkLeavesAllOfItsFilesOrNone) {
+  noisy_picture("a.exr", 600, 600, 1), noisy_picture("b.exr", 600, 600, 2);
   for (int i = 0; i < 6; ++i)
     for (const char* folder : {"a/", "b/"})
       noisy_picture(folder + std::to_string(i) + ".exr", 64, 64, unsigned(i));
-  expect_all_or_nothing({"compare", "a", "b", "--json", "out/r.json", "--csv", "out/r.csv",
-                         "--junit", "out/r.xml", "--diff-image", "out/maps"},
-                        40);
-}
-
-TEST_F(Interrupted, RenderLeavesAllOfItsFilesOrNone) {
-  expect_all_or_nothing({"render", kScenes + "two_lights.xml", "-q", "-o", "out/x.exr", "--png",
-                         "out/x.png", "--samples", "4", "--standard-error", "out/error.exr"},
-                        40);
-}
-
-TEST_F(Interrupted, ProfileLeavesAllOfItsFilesOrNone) {
-  noisy_picture("a.exr", 600, 600, 1), noisy_picture("b.exr", 600, 600, 2);
-  expect_all_or_nothing({"profile", "a.exr", "b.exr", "--csv", "out/p.csv", "--svg", "out/p.svg",
-                         "--json", "out/p.json"},
-                        30);
-}
-
-TEST_F(Interrupted, OtherLongWorkEndsAndLeavesNothing) {
-  const std::vector<std::string> commands[] = {
-      {"render", kScenes + "oblique_45.xml", "--width", "4096", "--height", "4096", "--samples",
-       "4096", "-q", "-o", "out/x.exr"},
-      {"cost", kScenes + "oblique_45.xml", "--level", "lobe", "--level", "picture", "--thorough",
-       "-q", "-o", "out"},
-      {"verify", "stability", "-q", "--json", "out/s.json", "--pictures", "out"},
-      {"verify", "paper", "--json", "out/p.json", "--plots", "out"},
+  const char* const commands[] = {
+      "compare a b --json out/r.json --csv out/r.csv --junit out/r.xml --diff-image out/maps",
+      "render \"$SCENES\"two_lights.xml -q -o out/x.exr --png out/x.png --samples 4 "
+      "--standard-error out/error.exr",
+      "profile a.exr b.exr --csv out/p.csv --svg out/p.svg --json out/p.json",
   };
-  for (const auto& arguments : commands) expect_ended_by_signals(arguments);
+  for (const char* arguments : commands) expect_all_or_nothing(arguments);
 }
 
 TEST_F(Interrupted, PublishingLeavesNoHalfFile) {
   write_small_grid(folder_.path(), "16, 32, 64, 128", 128);
-  ASSERT_EQ(run({"farm", "grid.xml", "-o", "run", "-q"}, 0, Seconds(0)).code, 0);
-  const std::vector<std::string> publish{"gallery", "run", "-o", "out"};
-  const auto started = Clock::now();
-  ASSERT_EQ(run(publish, 0, Seconds(0)).code, 0);
-  const Seconds takes = Clock::now() - started;
+  ASSERT_EQ(run("farm grid.xml -o run -q").exit_code, 0);
+  const ProcessResult whole = run("gallery run -o out");
+  ASSERT_EQ(whole.exit_code, 0) << whole.output_tail;
   const auto all = outputs();
   std::mt19937 random(13);
   int ended_early = 0;
   for (int i = 0; i < 20; ++i) {
     const int signal = i % 2 == 0 ? SIGINT : SIGTERM;
-    const Ended ended = run(publish, signal, takes * double(random() % 10000) / 10000);
+    const ProcessResult ended =
+        run("gallery run -o out", signal, whole.seconds * double(random() % 10000) / 10000);
     expect_no_temporaries("publishing");
     for (const auto& [name, bytes] : outputs()) {
       ASSERT_TRUE(all.contains(name)) << name;
       // The list comes first, and is whole when all is there.
-      if (ended.code != 0 && name == "gallery.json") continue;
+      if (ended.exit_code != 0 && name == "gallery.json") continue;
       EXPECT_EQ(bytes, all.at(name)) << name;
     }
-    if (ended.code == 0) continue;
-    EXPECT_EQ(ended.code, 128 + signal);
+    if (ended.exit_code == 0) continue;
+    EXPECT_EQ(ended.exit_code, 128 + signal);
     ++ended_early;
   }
   EXPECT_GT(ended_early, 0);
@@ -243,7 +174,7 @@ TEST_F(Interrupted, AProcessWhoseOutputNobodyReadsEndsAsWell) {
       "sleep 1; kill -TERM $job; wait $job; code=$?; kill $reader; exit $code",
       folder_.path());
   EXPECT_EQ(result.exit_code, 143) << result.output_tail;
-  EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
+  EXPECT_EQ(result.output_tail, kInterrupted);
 }
 
 }  // namespace

@@ -160,55 +160,24 @@ TEST_F(OutsideEngines, GetNoValueResemblingAnOption) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(OutsideEngines, LosesOnlyItsOwnCellsWhenItMisbehaves) {
-  script("good.sh", "");
-  struct Case {
-    const char* name;
-    std::string text;
-    const char* failure;
-  };
-  const Case cases[] = {
-      {"hangs", "exec sleep 1000", "timed out"},
-      {"fails", "echo no licence >&2; exit 3", "exit code"},
-      {"dies", "kill -SEGV $$", "crash"},
-      {"idles", "exit 0", "no output"},
-      {"garbles", "echo no picture > \"$2\"", "unreadable output"},
-      {"floods", "exec yes and no", "timed out"},
-  };
-  std::string engines = "<engine name=\"good\" command=\"sh good.sh {scene} {out}\"/>";
-  for (const Case& one : cases) {
-    write_file(path(std::string(one.name) + ".sh"), one.text + "\n");
-    engines += std::string("<engine name=\"") + one.name + "\" command=\"sh " + one.name +
-               ".sh {scene} {out}\"/>";
-  }
-  script("small.sh", "", "sed s/32/16/ \"$1\" > s.xml; set -- s.xml \"$2\"");
-  engines += "<engine name=\"small\" command=\"sh small.sh {scene} {out}\"/>";
-  grid(engines);
-  const ProcessResult result =
-      farm({"--allow-commands", "--time-limit", "12", "--attempts", "1", "--give-up-after", "0"});
-  EXPECT_EQ(result.exit_code, 4) << result.output_tail;
-  EXPECT_THAT(images(), ElementsAre("lobelia", "good"));
-  std::map<std::string, std::string> failures;
-  const nlohmann::json record = cell();
-  for (const auto& problem : record["problems"]) failures[problem["engine"]] = problem["failure"];
-  for (const Case& one : cases) EXPECT_EQ(failures[one.name], one.failure) << one.name;
-  EXPECT_EQ(failures["small"], "wrong size");
-  EXPECT_LT(fs::file_size(path("out/cells/n16/floods.log")), std::uintmax_t{2} << 20);
-  EXPECT_TRUE(fs::exists(path("out/failed/n16/reference-fails/again.sh")));
-}
-
 TEST_F(OutsideEngines, HasItsPictureRefusedIfItIsTooLargeOrOfAnotherHeight) {
   script("large.sh", "truncate -s 40M more");
   script("low.sh", "", "sed 's/\\(.*\\)32/\\116/' \"$1\" > s.xml; set -- s.xml \"$2\"");
-  grid(
-      "<engine name=\"large\" command=\"sh large.sh {scene} {out}\"/>"
-      "<engine name=\"low\" command=\"sh low.sh {scene} {out}\"/>");
+  write_file(path("fails.sh"), "echo no licence >&2; exit 3\n");
+  script("good.sh", "");
+  std::string engines;
+  for (const std::string name : {"large", "low", "fails", "good"})
+    engines += "<engine name=\"" + name + "\" command=\"sh " + name + ".sh {scene} {out}\"/>";
+  grid(engines);
   EXPECT_EQ(farm({"--allow-commands", "--attempts", "1", "--disk", "20M"}).exit_code, 4);
+  EXPECT_THAT(images(), ElementsAre("lobelia", "good"));
   std::map<std::string, std::string> failures;
   const nlohmann::json record = cell();
   for (const auto& problem : record["problems"]) failures[problem["engine"]] = problem["failure"];
   EXPECT_EQ(failures["large"], "disk limit");
   EXPECT_EQ(failures["low"], "wrong size");
+  EXPECT_EQ(failures["fails"], "exit code");
+  EXPECT_TRUE(fs::exists(path("out/failed/n16/reference-fails/again.sh")));
 }
 
 TEST_F(OutsideEngines, CanWriteNowhereElseAndLeavesNothingBehind) {

@@ -63,14 +63,6 @@ TEST_F(SystemFaults, AreSaidInOneLineWithThePath) {
   }
 }
 
-TEST_F(SystemFaults, EndTheCommandWhereEveryLookAtAnUnfinishedFileFails) {
-  expect_one_line(run_with("lstat", EIO, ".part",
-                           "render -q \"$SCENES\"head_on.xml --width 32 --height 32 -o b.exr"),
-                  4, "b.exr: cannot write: Input/output error");
-  for (const auto& entry : fs::directory_iterator(directory_.path()))
-    EXPECT_NE(entry.path().extension(), ".part");
-}
-
 TEST_F(SystemFaults, DoNotTurnAForeignFileIntoOneOfOurs) {
   fs::create_directory(path("site"));
   for (const char* foreign : {"site/index.html", "page.html"}) write_file(path(foreign), "mine");
@@ -81,23 +73,6 @@ TEST_F(SystemFaults, DoNotTurnAForeignFileIntoOneOfOurs) {
   for (const char* foreign : {"site/index.html", "page.html"})
     EXPECT_EQ(read_file(path(foreign), 100), "mine") << foreign;
   EXPECT_EQ(files_in(path("site")), 1u);
-}
-
-TEST_F(SystemFaults, AreSaidWhereAFileOfTheSiteBeforeCannotBeRemoved) {
-  EXPECT_EQ(run("\"$LOBELIA\" gallery run -o site").exit_code, 0);
-  const fs::path old_file = path("site/cells/n16/lobelia.float.js");
-  EXPECT_TRUE(fs::exists(old_file));
-  const std::string without = "gallery run -o site --metrics-only";
-  expect_one_line(run_with("unlinkat", EIO, ".float.js", without), 4,
-                  ".float.js: cannot remove: Input/output error");
-  const auto again = run("\"$LOBELIA\" " + without);
-  EXPECT_EQ(again.exit_code, 0) << again.output_tail;
-  EXPECT_FALSE(fs::exists(old_file)) << "the list of files names it still";
-}
-
-TEST_F(SystemFaults, AHiddenLinkToTheProgramChangesNothing) {
-  const auto compared = run_with("readlink", EIO, "/proc/self/exe", "compare a.png a.png -q");
-  EXPECT_EQ(compared.exit_code, 0) << compared.output_tail;
 }
 
 TEST_F(SystemFaults, AMissingProcChangesNothing) {
