@@ -149,8 +149,7 @@ Image with_noise(const Image& image, std::uint64_t stream) {
   return result;
 }
 
-}  // namespace
-
+/// The result of comparing a changed copy with the original.
 Change change_of(std::string name, Expected expected, const Comparison& comparison) {
   Change change{std::move(name), expected, comparison.verdict, {}};
   for (const LimitResult& limit : comparison.limits)
@@ -158,6 +157,8 @@ Change change_of(std::string name, Expected expected, const Comparison& comparis
       change.found_by += (change.found_by.empty() ? "" : ", ") + limit.metric;
   return change;
 }
+
+}  // namespace
 
 std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions& options) {
   const double peak = peak_value(reference);
@@ -234,10 +235,9 @@ bool are_as_expected(std::span<const Change> changes) {
 }
 
 records::Sensitivity sensitivity_record(const std::string& a, std::span<const Change> changes,
-                                        const ComparisonOptions& options, LayerType type) {
+                                        const ComparisonOptions& options) {
   records::Sensitivity record;
   record.a = a;
-  if (type != LayerType::kColour) record.type = layer_type_name(type);
   record.as_expected = are_as_expected(changes);
   record.default_limits = options.default_limits;
   for (const auto& [metric, limit] : options.limits) record.limits.push_back({metric, limit});

@@ -25,9 +25,6 @@ struct Change {
   }
 };
 
-/// The result of comparing a changed copy with the original.
-Change change_of(std::string name, Expected expected, const Comparison& comparison);
-
 /// Compares changed copies of `reference` with it: blackened, shifted, dimmed, blurred, with another exponent, without
 /// its brightest highlight, with each of the eight largest highlights gone, dimmer and moved in turn, and copies that
 /// only round or have known noise. Each highlight is also alone in `a`: then the reference is compared with the copy that
@@ -38,8 +35,8 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
 /// Whether every change is as expected.
 bool are_as_expected(std::span<const Change> changes);
 
-/// `a` is the file of the picture, and `type` that of its layer.
+/// `a` is the file of the picture.
 records::Sensitivity sensitivity_record(const std::string& a, std::span<const Change> changes,
-                                        const ComparisonOptions& options, LayerType type);
+                                        const ComparisonOptions& options);
 
 }  // namespace lobelia

@@ -294,9 +294,6 @@ void define_comparison_tables(Tables& tables) {
   tables.define<Sensitivity>("What limits find in changed copies of a picture.", [](auto& t) {
     t.kind("sensitivity");
     t.key("a", "file of the picture");
-    t.key("type", "what the values of the layer are; missing for colour")
-        .one_of(kLayerTypes)
-        .if_any();
     t.key("asExpected", "every change that matters was found, and nothing else");
     t.key("defaultLimits", "the default limits were judged too");
     t.key("limits", "besides the default ones");

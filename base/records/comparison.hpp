@@ -254,7 +254,7 @@ struct GivenLimit {
 };
 
 struct Sensitivity {
-  std::string a, type;
+  std::string a;
   bool as_expected = false, default_limits = true;
   std::vector<GivenLimit> limits;
   std::vector<ChangedCopy> changes;

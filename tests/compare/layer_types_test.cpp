@@ -1,7 +1,6 @@
 // Layers that are no colours: how their type is told, and what is measured of each.
 #include "compare/layer_types.hpp"
 
-#include "compare/layer_sensitivity.hpp"
 #include "tests/compare/layer_files.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/thrown.hpp"
@@ -317,57 +316,6 @@ TEST_F(LayerFiles, AlphaIsJudgedAsAShare) {
   for (const LayerComparison& layer : compare_all(dark).compared)
     EXPECT_EQ(layer.verdict(), layer.name == "d.A" ? Verdict::kDiffers : Verdict::kPass)
         << layer.name;
-}
-
-/// Changed copies of the layer "L" of a file, as --sensitivity makes them.
-class LayerSensitivity : public LayerFiles {
- protected:
-  std::vector<Change> changes(const std::vector<ExrChannel>& channels, const std::string& layer,
-                              const ComparisonOptions& how = options()) {
-    return layer_sensitivity(read_picture(file("a.exr", channels), layer), path("a.exr").string(),
-                             how);
-  }
-  static void expect_as_expected(const std::vector<Change>& changes, std::size_t at_least) {
-    EXPECT_GE(changes.size(), at_least);
-    for (const Change& change : changes)
-      EXPECT_TRUE(change.is_as_expected())
-          << change.name << ": " << verdict_name(change.verdict) << " by " << change.found_by;
-  }
-};
-
-TEST_F(LayerSensitivity, FindsChangesInEveryTypeOfLayer) {
-  std::mt19937 random(12);
-  std::uniform_real_distribution<float> unit(0.1f, 1);
-  std::normal_distribution<float> normal;
-  for (int run = 0; run < 4; ++run) {
-    std::vector<float> shares(kPixels), depths(kPixels), x(kPixels), y(kPixels), z(kPixels);
-    std::vector<std::uint32_t> ids(kPixels);
-    for (std::size_t i = 0; i < kPixels; ++i) {
-      shares[i] = unit(random);
-      depths[i] = i % 9 == 0 ? 1e10f : 100 * unit(random);
-      x[i] = normal(random), y[i] = normal(random), z[i] = normal(random);
-      ids[i] = std::uint32_t(random() % 5);
-    }
-    expect_as_expected(changes({{"A", shares}}, "A"), 4);
-    expect_as_expected(changes({{"Z", depths}}, "Z"), 6);
-    expect_as_expected(changes({{"N.X", x}, {"N.Y", y}, {"N.Z", z}}, "N"), 6);
-    expect_as_expected(changes({{"motion.x", x}, {"motion.y", y}}, "motion"), 6);
-    expect_as_expected(
-        changes({{.name = "id", .values = {}, .type = Imf::UINT, .numbers = ids}}, "id"), 3);
-  }
-}
-
-TEST_F(LayerSensitivity, TellsOfLimitsThatFindNothing) {
-  ComparisonOptions loose = options();
-  loose.limits = {{"depth.relative.p95", 1}, {"depth.relative.max", 1}, {"depth.background", 1e9}};
-  std::vector<float> depths(kPixels, 3.0f);
-  EXPECT_FALSE(are_as_expected(changes({{"Z", depths}}, "Z", loose)));
-}
-
-TEST_F(LayerSensitivity, NeedsSomethingToChange) {
-  EXPECT_THROW(changes({{"Z", std::vector<float>(kPixels, kInf)}}, "Z"), Error);
-  const std::vector<float> zero(kPixels, 0.0f);
-  EXPECT_THROW(changes({{"N.X", zero}, {"N.Y", zero}, {"N.Z", zero}}, "N"), Error);
 }
 
 }  // namespace

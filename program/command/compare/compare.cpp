@@ -5,11 +5,11 @@
 #include "base/system/files.hpp"
 #include "base/system/scratch_memory.hpp"
 #include "base/system/threads.hpp"
-#include "compare/cryptomatte.hpp"
 #include "compare/highlight_region.hpp"
-#include "compare/layer_sensitivity.hpp"
 #include "compare/layer_types.hpp"
+#include "compare/layers.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/sensitivity.hpp"
 #include "compare/set/unjudged_limits.hpp"
 #include "program/command/commands.hpp"
 #include "program/command/compare/compare_arguments.hpp"
@@ -45,7 +45,6 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   require_outputs(options, of_one);
   FilesTogether files;
   std::vector<Change> changes;
-  LayerType type = LayerType::kColour;
   std::vector<std::string> unused;
   ThreadLimit(options.choice.threads).run([&] {
     PicturePair pictures{read_picture(picture, job.layers.layer.a), {}};
@@ -53,17 +52,18 @@ ExitCode run_sensitivity(const CompareArguments& options) {
     ComparisonOptions comparison = job.comparison;
     job.parts.apply(pictures.a.image.width(), pictures.a.image.height(), comparison);
     take_part(pictures, picture, picture, comparison);
-    type = type_of_layers(pictures.b.source, pictures.b.source, comparison);
-    changes = layer_sensitivity(pictures.b, picture, comparison);
-    const bool is_cryptomatte =
-        cryptomatte_of(pictures.b.source, pictures.b.source, comparison).has_value();
-    unused = limits_of_other_types(comparison.limits, type, is_cryptomatte);
+    const LayerType type = type_of_layers(pictures.b.source, pictures.b.source, comparison);
+    if (type != LayerType::kColour)
+      throw Error(ExitCode::kUsage, "--sensitivity needs a layer of colours; this one has type {}",
+                  layer_type_name(type));
+    changes = sensitivity(pictures.b.image, options_of_type(type, comparison));
+    unused = limits_of_other_types(comparison.limits, type, false);
   });
   const bool as_expected = are_as_expected(changes);
   const ExitCode code = as_expected ? ExitCode::kSuccess : ExitCode::kDiffers;
   if (!options.json.empty()) {
     const std::string record =
-        record_text(sensitivity_record(picture, changes, options.job.comparison, type));
+        record_text(sensitivity_record(picture, changes, options.job.comparison));
     if (has_table) write_file(options.json, record);
     files.commit();
     if (!has_table) fmt::print("{}", record);
@@ -82,8 +82,8 @@ ExitCode run_sensitivity(const CompareArguments& options) {
                why.empty() ? 0 : 12, why);
   }
   if (!unused.empty())
-    fmt::print("\n  not used, because this layer is of type {}: limits on {}\n",
-               layer_type_name(type), fmt::join(unused, ", "));
+    fmt::print("\n  not used, because this layer has colours: limits on {}\n",
+               fmt::join(unused, ", "));
   fmt::print("\n{}\n", as_expected ? "These limits find what they should."
                                    : "These limits do not find what they should.");
   return code;
