@@ -95,8 +95,7 @@ FarmEngine look_for_engine(std::unique_ptr<Engine> made, FileHashes& hashes) {
   engine.here = status.available();
   if (!engine.here) return engine;
   engine.version = status.version;
-  engine.files = engine_content(status, hashes);
-  engine.content = engine.files.sha256;
+  engine.content = engine_content(status, hashes);
   return engine;
 }
 

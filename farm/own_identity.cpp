@@ -15,6 +15,7 @@
 #include "base/system/sha256.hpp"
 #include "base/system/version.hpp"
 #include "base/words/text.hpp"
+#include "reference_scenes/content.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia {
@@ -62,7 +63,8 @@ std::vector<fs::path> libraries_of(const std::string& loader, const fs::path& fi
                    ExitCode::kInput);
 }
 
-Content find_libraries() {
+/// SHA-256 of the files that decide a result.
+std::string hash_libraries() {
   FileHashes& hashes = FileHashes::of_user();
   ContentReader reader(hashes);
   const std::string loader = find_loader();
@@ -79,7 +81,7 @@ Content find_libraries() {
       for (const fs::path& library : libraries_of(loader, file))
         reader.add("library", library.filename().native(), library);
   hashes.save();
-  return reader.content();
+  return reader.sha256();
 }
 
 constexpr int kArguments = 1000;  // two variants of a function differ at about one in a hundred
@@ -203,13 +205,8 @@ std::string OwnIdentity::text() const {
 
 const OwnIdentity& own_identity() {
   static const OwnIdentity identity{std::string(kNameAndVersion) + " " + build_id(),
-                                    own_libraries().sha256, find_arithmetic()};
+                                    hash_libraries(), find_arithmetic()};
   return identity;
-}
-
-const Content& own_libraries() {
-  static const Content libraries = find_libraries();
-  return libraries;
 }
 
 std::vector<std::string> identity_differences(const OwnIdentity& planned, const OwnIdentity& here) {
