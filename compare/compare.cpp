@@ -143,8 +143,7 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOp
   const NoiseOptions& noise = *options.noise;
   const auto in_short = [](const PictureNoise* one) -> std::optional<records::PictureNoise> {
     if (!one) return std::nullopt;
-    return records::PictureNoise{one->freedom, one->shared, one->layer, one->fireflies,
-                                 one->has_heavy_tails()};
+    return records::PictureNoise{one->freedom, one->shared, one->fireflies, one->has_heavy_tails()};
   };
   const int width = input.a.width(), height = input.a.height();
   return {.a = in_short(input.noise->a),
@@ -289,17 +288,6 @@ void check_options(const ComparisonOptions& options) {
     require_range("the number of bootstraps", options.noise->bootstraps, kFewestBootstraps,
                   kMostBootstraps);
   }
-}
-
-ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
-                                       const ComparisonOptions& options) {
-  // The known noise is that of a.
-  ComparisonOptions plain = options;
-  plain.noise.reset();
-  plain.limits.clear();
-  plain.warnings.clear();
-  Comparison measured = compare(c, b, plain);
-  return {"", measured.nonfinite.a, std::move(measured.metrics)};
 }
 
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {

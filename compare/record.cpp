@@ -71,7 +71,7 @@ records::LayerComparison layer_record(const LayerComparison& layer) {
 }  // namespace
 
 records::Comparison comparison_record(const Comparison& comparison, const std::string& a,
-                                      const std::string& b, const std::string& c) {
+                                      const std::string& b) {
   records::Comparison record;
   record.verdict = verdict_name(comparison.verdict);
   record.a = a;
@@ -100,8 +100,6 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
     record.tolerance = records::Tolerance{
         comparison.tolerance->relative, comparison.tolerance->of_peak,
         comparison.tolerance->allowed_outliers, !comparison.tolerance->edges.empty()};
-  record.reference_floor = comparison.reference_floor;
-  if (record.reference_floor) record.reference_floor->c = c;
   return record;
 }
 

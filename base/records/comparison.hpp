@@ -108,7 +108,6 @@ struct Limit {
 struct PictureNoise {
   double freedom = 0;
   bool shared = false;
-  std::string layer;
   std::optional<double> fireflies;
   std::optional<bool> heavy_tails;
 };
@@ -130,12 +129,6 @@ struct Tolerance {
   double relative = 0, of_peak = 0;
   std::int64_t allowed_outliers = 0;
   bool on_edges_only = false;
-};
-
-struct ReferenceFloor {
-  std::string c;
-  std::int64_t nonfinite = 0;
-  Named<double> metrics;
 };
 
 /// A further layer of both files.
@@ -191,7 +184,6 @@ struct Comparison {
   std::optional<Uncertainty> uncertainty;
   std::optional<Named<ErrorBar>> error_bars;
   std::optional<Tolerance> tolerance;
-  std::optional<ReferenceFloor> reference_floor;
   std::optional<PicturesRead> pictures;
   std::optional<NotCompared> not_compared;
   std::optional<std::vector<LayerComparison>> layers;
@@ -233,7 +225,7 @@ struct PairOfSet {
 };
 
 struct ComparisonSet {
-  std::string a, b, c;
+  std::string a, b;
   SetSummary summary;
   SetNotCompared not_compared;
   Named<WorstOfSet> worst;

@@ -1,4 +1,4 @@
-// lobelia compare with folders, second references and its reports, as a user runs it.
+// lobelia compare with folders and its reports, as a user runs it.
 #include <pugixml.hpp>
 
 #include "base/pictures/image_io.hpp"
@@ -112,19 +112,6 @@ TEST_F(CompareFolders, HaveOneRangeOfExposuresForTheWholeSet) {
   EXPECT_LT(json("one.json")["viewing"]["hdrExposures"]["count"], range(0)["count"]);
 }
 
-TEST_F(CompareFolders, ShowHowFarTwoReferencesAreFromEachOther) {
-  put("a/x.exr", 0.10f), put("b/x.exr", 0.11f), put("c.exr", 0.13f);
-  const auto result = compare({"a/x.exr", "b/x.exr", "--reference-floor", "c.exr", "--metrics",
-                               "rmse", "--json", "one.json"});
-  EXPECT_EQ(result.exit_code, 1) << "the second reference has no part in the verdict";
-  EXPECT_THAT(result.output_tail, HasSubstr("C and B"));
-  const auto record = json("one.json");
-  EXPECT_EQ(record["referenceFloor"]["c"], "c.exr");
-  EXPECT_NEAR(record["referenceFloor"]["metrics"]["rmse"].get<double>(),
-              2 * record["metrics"]["rmse"].get<double>(), 1e-6);
-  EXPECT_EQ(compare({"a/x.exr", "b/x.exr", "--reference-floor", "none.exr"}).exit_code, 3);
-}
-
 TEST_F(CompareFolders, WarnWithoutFailing) {
   put("a/x.exr", 0.10f), put("b/x.exr", 0.11f);
   const auto result = compare({"a/x.exr", "b/x.exr", "--fail", "rmse=9", "--no-default-limits",
@@ -177,7 +164,7 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   put("b/deep/x.exr", 0.1f);
   fs::create_directory_symlink("b", path("other_b"));
   const auto before = contents(directory_.path());
-  const std::vector<std::string> plain{"a", "b", "--reference-floor", "c"};
+  const std::vector<std::string> plain{"a", "b", "--also-accept", "c"};
   const auto refused = [&](std::vector<std::string> more, const char* why) {
     more.insert(more.begin(), plain.begin(), plain.end());
     const auto result = compare(more);
@@ -351,7 +338,6 @@ TEST_F(CompareFolders, NameTheFilesWhoseSizesDiffer) {
   };
   says({"a/x.exr", "b/x.exr"}, "10 x 20 against 20 x 20 (a/x.exr against b/x.exr)");
   says({"a", "b"}, "10 x 20 against 20 x 20 (a/x.exr against b/x.exr)");
-  says({"b/x.exr", "b/x.exr", "--reference-floor", "c.exr"}, "(c.exr against b/x.exr)");
   says({"b/x.exr", "b/x.exr", "--a-replicate", "c.exr"}, "(the picture against c.exr)");
   says({"b/x.exr", "b/x.exr", "--b-error", "c.exr"}, "(the picture against c.exr)");
   says({"a/x.exr", "a/x.exr", "--scene", kScenes + "head_on.xml"}, "a/x.exr has 10 x 20 pixels");
