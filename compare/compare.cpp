@@ -11,7 +11,7 @@
 #include "base/system/scratch_memory.hpp"
 #include "base/words/constants.hpp"
 #include "base/words/text.hpp"
-#include "compare/disagreement.hpp"
+#include "compare/blind_limits.hpp"
 #include "compare/faults.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/highlights/words.hpp"
@@ -385,7 +385,6 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
       return limit.standing == Standing::kOpen && is_by_default(limit.metric, options);
     });
   result.warnings = judge(options.warnings, result);
-  result.disagreement = disagreements(result.limits);
   if (result.highlight_pixels.value_or(0) > 0)
     result.blind_limits = blind_limits(judge(options.limits, result), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;

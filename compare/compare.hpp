@@ -108,8 +108,6 @@ struct Comparison {
   std::vector<NotMeasured> not_measured;  ///< likewise; only outputs that take a limit
   std::vector<LimitResult> limits;        ///< the verdict follows from these
   std::vector<LimitResult> warnings;
-  /// Sentences: limits that contradict each other, see disagreements(). The verdict does not depend on them.
-  std::vector<std::string> disagreement;
   std::vector<std::string>
       blind_limits;  ///< sentences: what given limits cannot see, see blind_limits()
   std::vector<records::Fault> faults;  ///< of pictures that do not pass, see find_faults()

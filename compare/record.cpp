@@ -60,7 +60,6 @@ records::LayerComparison layer_record(const LayerComparison& layer) {
     record.nonfinite = std::move(whole.nonfinite);
     record.metrics = std::move(whole.metrics);
     record.limits = std::move(whole.limits);
-    record.disagreement = std::move(whole.disagreement);
     record.not_measured = std::move(whole.not_measured);
     record.finding = std::move(whole.finding);
   }
@@ -91,7 +90,6 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.not_measured = comparison.not_measured;
   record.limits = comparison.limits;
   record.warnings = comparison.warnings;
-  record.disagreement = comparison.disagreement;
   record.blind_limits = comparison.blind_limits;
   record.faults = comparison.faults;
   record.uncertainty = comparison.uncertainty;

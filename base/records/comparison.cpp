@@ -224,7 +224,6 @@ void define_comparison_tables(Tables& tables) {
     t.key("notMeasured").if_any();
     t.key("limits").items(1);
     t.key("warnings", "limits that are no part of the verdict").if_any();
-    t.key("disagreement", "sentences: which limits say opposite things by far");
     t.key("blindLimits", "sentences: what the limits that were given cannot see").if_any();
     t.key("faults", "of a picture that does not pass").if_any();
     t.key("errorBars", "by metric, where the noise is known");

@@ -140,7 +140,6 @@ struct LayerComparison {
   std::optional<Nonfinite> nonfinite;
   std::optional<Named<double>> metrics;
   std::optional<std::vector<Limit>> limits;
-  std::optional<std::vector<std::string>> disagreement;
   std::vector<NotMeasured> not_measured;
   std::string finding;
   PicturesRead pictures;
@@ -179,7 +178,7 @@ struct Comparison {
   Named<double> metrics;
   std::vector<NotMeasured> not_measured;
   std::vector<Limit> limits, warnings;
-  std::vector<std::string> disagreement, blind_limits;
+  std::vector<std::string> blind_limits;
   std::vector<Fault> faults;
   std::optional<Uncertainty> uncertainty;
   std::optional<Named<ErrorBar>> error_bars;

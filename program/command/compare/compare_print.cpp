@@ -212,8 +212,6 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
     if (limit.more_samples && std::isfinite(*limit.more_samples))
       fmt::print("  about {:.3g} times the samples would tell about {}\n", *limit.more_samples,
                  limit.metric);
-  for (const std::string& sentence : comparison.disagreement)
-    fmt::print("  metrics disagree: {}\n", sentence);
   for (const std::string& sentence : comparison.blind_limits)
     fmt::print("  warning: {}\n", sentence);
   if (pair.layers) print_layers(*pair.layers, pair.a, pair.b);
