@@ -115,11 +115,12 @@ std::span<const MetricLimit> limits_of_type(LayerType type) {
 
 LayerTypeChoice parse_layer_type(const std::string& text) {
   const std::size_t equals = text.rfind('=');
-  const auto type =
-      equals == text.npos ? std::nullopt : find_id<LayerType>(kLayerTypes, text.substr(equals + 1));
+  const auto type = equals == text.npos
+                        ? std::nullopt
+                        : find_id<LayerType>(records::kLayerTypes, text.substr(equals + 1));
   if (!type)
     throw Error(ExitCode::kUsage, "--layer-type {}: expected NAME=TYPE, where TYPE is one of {}",
-                printable(text), join(kLayerTypes));
+                printable(text), join(records::kLayerTypes));
   return {text.substr(0, equals), *type};
 }
 

@@ -1,7 +1,7 @@
 // Pixels of two pictures outside their display windows.
 #pragma once
 
-#include "base/pictures/layer_type.hpp"
+#include "compare/layer_type.hpp"
 #include "compare/layers.hpp"
 
 namespace lobelia {

@@ -8,12 +8,12 @@
 #include "base/pictures/image.hpp"
 #include "base/system/error.hpp"
 #include "base/system/files.hpp"
-#include "base/system/shipped_files.hpp"
 #include "base/words/text.hpp"
 #include "farm/grid_choices.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/outside/outside_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "renderer/shipped_files.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,12 +7,12 @@
 #include <thread>
 
 #include "base/pictures/image_io.hpp"
-#include "base/system/at_once.hpp"
 #include "base/system/host.hpp"
 #include "base/system/no_resources.hpp"
 #include "base/system/threads.hpp"
 #include "base/words/numbers.hpp"
 #include "farm/job_maker.hpp"
+#include "reference_scenes/at_once.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/pictures/image_values.hpp"
-#include "base/system/at_once.hpp"
 #include "base/system/error.hpp"
+#include "reference_scenes/at_once.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"

@@ -53,7 +53,7 @@ struct PictureSource {
   std::string alpha;    ///< name of the layer with its alpha; empty if there is none
   std::vector<std::string> layers;  ///< all layers of the file, as layer_names()
   int mip_levels = 1;               ///< in the file; the first was read
-  /// Names of the Cryptomattes that the file's metadata announce (base/pictures/layer_type.hpp), each once.
+  /// Names of the Cryptomattes that the file's metadata announce (compare/layer_type.hpp), each once.
   std::vector<std::string> cryptomattes;
   /// Their manifests, JSON of objects and hashes, where the picture was read as it is stored; "" for none.
   std::vector<std::string> manifests;

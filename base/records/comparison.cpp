@@ -1,7 +1,5 @@
 #include "base/records/comparison.hpp"
 
-#include "base/pictures/layer_type.hpp"
-
 namespace lobelia::records {
 namespace {
 

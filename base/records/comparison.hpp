@@ -8,6 +8,8 @@ namespace lobelia::records {
 /// The last three are for pictures with noise.
 inline constexpr std::string_view kVerdicts[] = {"pass", "differs",   "non-finite",
                                                  "same", "different", "undecided"};
+inline constexpr std::string_view kLayerTypes[] = {"colour", "alpha", "depth", "vector",
+                                                   "identifier"};
 /// Whether limits should find a change.
 inline constexpr std::string_view kExpected[] = {"found", "not found", "either"};
 /// Whether a limit holds over the whole error bar.

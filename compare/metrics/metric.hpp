@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "base/pictures/layer_type.hpp"
 #include "base/pictures/pixel_flags.hpp"
 #include "compare/display_light.hpp"
 #include "compare/highlights/judge.hpp"
+#include "compare/layer_type.hpp"
 
 namespace lobelia {
 

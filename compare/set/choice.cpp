@@ -60,7 +60,7 @@ std::vector<CompareOption> options_of_sets() {
        fmt::format("What a layer is, where its name does not say it: {}. Each type has metrics "
                    "and default limits of its own; without NAME, of the picture; may be given "
                    "again",
-                   join(kLayerTypes))},
+                   join(records::kLayerTypes))},
       {"ignore-alpha", &Choice::ignore_alpha, For::kFiles, "Layers", "",
        "Do not judge the alpha of the picture; otherwise an alpha that one side alone has "
        "fails, unless it is 1 everywhere"},

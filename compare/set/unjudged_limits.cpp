@@ -53,8 +53,8 @@ std::string picture_title(const PairReport& pair) {
 std::string needed_by(const std::string& metric) {
   std::vector<std::string_view> types;
   bool is_of_cryptomattes = true;
-  for (std::size_t i = 0; i < std::size(kLayerTypes); ++i) {
-    if (can_judge(LayerType(i), metric, true)) types.push_back(kLayerTypes[i]);
+  for (std::size_t i = 0; i < std::size(records::kLayerTypes); ++i) {
+    if (can_judge(LayerType(i), metric, true)) types.push_back(records::kLayerTypes[i]);
     is_of_cryptomattes = is_of_cryptomattes && !can_judge(LayerType(i), metric, false);
   }
   if (is_of_cryptomattes) return "a Cryptomatte";

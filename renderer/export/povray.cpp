@@ -6,7 +6,7 @@
 
 #include "base/system/error.hpp"
 #include "base/system/version.hpp"
-#include "base/words/embedded.hpp"
+#include "renderer/export/embedded.hpp"
 #include "renderer/export/names.hpp"
 #include "renderer/formula.hpp"
 

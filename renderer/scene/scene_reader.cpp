@@ -1,10 +1,10 @@
 
 #include "base/system/files.hpp"
-#include "base/system/shipped_files.hpp"
 #include "renderer/formula.hpp"
 #include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
+#include "renderer/shipped_files.hpp"
 
 namespace lobelia {
 namespace {

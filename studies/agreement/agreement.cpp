@@ -9,9 +9,9 @@
 #include <mutex>
 #include <utility>
 
-#include "base/system/at_once.hpp"
 #include "base/system/interrupt.hpp"
 #include "base/words/constants.hpp"
+#include "reference_scenes/at_once.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "renderer/render.hpp"

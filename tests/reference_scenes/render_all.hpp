@@ -5,7 +5,7 @@
 #include <mutex>
 #include <span>
 
-#include "base/system/at_once.hpp"
+#include "reference_scenes/at_once.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia {

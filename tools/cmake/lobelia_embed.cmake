@@ -27,7 +27,7 @@ ${literal};
 endfunction()
 
 # lobelia_embed_folder(TARGET FOLDER PATTERN NAME): the files of a folder, by their names without the ending, as
-# `extern const std::span<const lobelia::EmbeddedText> lobelia::embedded::NAME` (base/words/embedded.hpp).
+# `extern const std::span<const lobelia::EmbeddedText> lobelia::embedded::NAME` (renderer/export/embedded.hpp).
 function(lobelia_embed_folder target folder pattern name)
   file(GLOB files RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${folder}/${pattern})
   set(declarations "")
@@ -41,7 +41,7 @@ function(lobelia_embed_folder target folder pattern name)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded_${name}.cpp)
   file(CONFIGURE OUTPUT ${out} @ONLY NEWLINE_STYLE UNIX CONTENT
 "// Made from ${folder}/ by tools/cmake/lobelia_embed.cmake.
-#include \"base/words/embedded.hpp\"
+#include \"renderer/export/embedded.hpp\"
 namespace lobelia::embedded {
 ${declarations}
 static const EmbeddedText ${name}_texts[] = {

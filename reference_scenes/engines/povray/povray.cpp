@@ -8,12 +8,12 @@
 #include <mutex>
 
 #include "base/pictures/image_io.hpp"
-#include "base/system/at_once.hpp"
 #include "base/system/error.hpp"
 #include "base/system/files.hpp"
 #include "base/system/interrupt.hpp"
 #include "base/system/removal.hpp"
 #include "base/words/text.hpp"
+#include "reference_scenes/at_once.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"

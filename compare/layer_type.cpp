@@ -1,4 +1,4 @@
-#include "base/pictures/layer_type.hpp"
+#include "compare/layer_type.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "base/system/shipped_files.hpp"
+#include "renderer/shipped_files.hpp"
 
 #include "base/system/host.hpp"
 

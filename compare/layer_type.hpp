@@ -8,14 +8,14 @@
 #include <string_view>
 
 #include "base/pictures/picture.hpp"
+#include "base/records/comparison.hpp"
 
 namespace lobelia {
 
+/// Named by records::kLayerTypes.
 enum class LayerType : std::uint8_t { kColour, kAlpha, kDepth, kVector, kIdentifier };
-inline constexpr std::string_view kLayerTypes[] = {"colour", "alpha", "depth", "vector",
-                                                   "identifier"};
 constexpr std::string_view layer_type_name(LayerType type) {
-  return kLayerTypes[std::size_t(type)];
+  return records::kLayerTypes[std::size_t(type)];
 }
 
 /// The type of a layer by, in this order:
