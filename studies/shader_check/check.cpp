@@ -13,6 +13,7 @@
 #include "base/words/text.hpp"
 #include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/explain.hpp"
+#include "studies/shader_check/own_shader.hpp"
 #include "studies/shader_check/points.hpp"
 #include "studies/shader_check/program_text.hpp"
 
@@ -229,7 +230,11 @@ Check check_shader(const Request& request) {
   const ShaderPoints points = arguments.of(plan.points);
   const ShaderProgram program =
       make_program(source, request.api, points.count(), points.components, request.time_limit);
-  const ShaderRun run = run_programs(request.api, points, {program}, 1, {request.time_limit, 0});
+  const ShaderRun run =
+      run_programs(request.api, points, {own_program(request, source, program, points), program}, 1,
+                   {request.time_limit, 0});
+  require_right_driver(request, run.device, std::span(plan.points).first(plan.domain.count),
+                       run.values.front());
 
   Check check;
   check.shown_exponent = request.shown_exponent;
@@ -246,7 +251,7 @@ Check check_shader(const Request& request) {
   record.device = run.device;
   record.driver = run.driver;
 
-  const std::vector<ShaderValue>& values = run.values.front();
+  const std::vector<ShaderValue>& values = run.values.back();
   if (std::ranges::none_of(values, &ShaderValue::written))
     throw Error(ExitCode::kInput, "{}: {} writes nothing: every call is discarded", record.file,
                 request.function);

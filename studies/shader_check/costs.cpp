@@ -8,32 +8,10 @@
 
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
-#include "renderer/export/export.hpp"
-#include "renderer/export/names.hpp"
+#include "studies/shader_check/own_shader.hpp"
 
 namespace lobelia::shader_check {
 namespace {
-
-/// The exported function of the model, in the shader's own language.
-ShaderSource ours(const Request& request) {
-  const ShaderText language = request.language;
-  ShaderExport wanted{*find_shader_language(kShaderTextNames[std::size_t(language)]),
-                      {request.highlight.model},
-                      request.highlight.lobe,
-                      request.highlight.normalisation,
-                      {}};
-  std::string text;
-  try {
-    text = shader_text(wanted);
-  } catch (const Error&) {  // there is no closed form
-    wanted.coefficient = CoefficientFrom::kArgument;
-    text = shader_text(wanted);
-  }
-  std::string call =
-      function_name(request.highlight) + "(" + common_vectors(language) + ", " + common_exponent();
-  if (wanted.coefficient == CoefficientFrom::kArgument) call += ", " + common_coefficient();
-  return {language, "ours", text, {call + ")"}};
-}
 
 ShaderSource power(ShaderText language) {
   constexpr std::string_view kBody = "{ return pow(max(dot(N, normalize(L + V)), 0.0), n); }\n";
@@ -56,7 +34,7 @@ class Costs {
                  record.file,
                  request.text,
                  {arguments.call(request.function, request.language)}},
-                ours(request),
+                own_source(request),
                 power(request.language)};
     for (const char* name : {"function", "ours", "pow"}) record.costs.push_back({name, {}});
   }

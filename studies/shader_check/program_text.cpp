@@ -13,10 +13,14 @@
 namespace lobelia {
 namespace {
 
+/// A fragment shader of ES has an int of 16 bits otherwise, which is too short for the number of a point.
+constexpr char kOwnPrecision[] =
+    "#undef main\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+
 constexpr std::string_view kAsFour = R"(
-%vec4% lobelia_as_four(float v) { return %vec4%(v, v, v, 1.0); }
-%vec4% lobelia_as_four(%vec3% v) { return %vec4%(v, 1.0); }
-%vec4% lobelia_as_four(%vec4% v) { return %vec4%(v.xyz, 1.0); }
+%vec4% lobelia_as_four(float lobelia_v) { return %vec4%(lobelia_v, lobelia_v, lobelia_v, 1.0); }
+%vec4% lobelia_as_four(%vec3% lobelia_v) { return %vec4%(lobelia_v, 1.0); }
+%vec4% lobelia_as_four(%vec4% lobelia_v) { return %vec4%(lobelia_v.xyz, 1.0); }
 )";
 
 constexpr std::string_view kFragmentMain = R"(
@@ -24,11 +28,11 @@ uniform highp sampler2D lobelia_points;
 out highp vec4 lobelia_result;
 void main()
 {
-    int i = int(gl_FragCoord.y) * %width% + int(gl_FragCoord.x);
-    int k = i / %points%;
-    int t = (i - k * %points%) * %texels%;
-    vec4 result = vec4(0.0);
-%fetches%%calls%    lobelia_result = result;
+    int lobelia_i = int(gl_FragCoord.y) * %width% + int(gl_FragCoord.x);
+    int lobelia_k = lobelia_i / %points%;
+    int lobelia_t = (lobelia_i - lobelia_k * %points%) * %texels%;
+    vec4 lobelia_value = vec4(0.0);
+%fetches%%calls%    lobelia_result = lobelia_value;
 }
 )";
 
@@ -39,12 +43,12 @@ layout(std430, set = 0, binding = 0) readonly buffer LobeliaPoints { LobeliaPoin
 layout(std430, set = 0, binding = 1) writeonly buffer LobeliaResults { vec4 lobelia_results[]; };
 void main()
 {
-    int i = int(gl_GlobalInvocationID.y) * %row% + int(gl_GlobalInvocationID.x);
-    int k = i / %points%;
-    if (k < %outputs%) {
-        int t = i - k * %points%;
-        vec4 result = vec4(0.0);
-%fetches%%calls%        lobelia_results[i] = result;
+    int lobelia_i = int(gl_GlobalInvocationID.y) * %row% + int(gl_GlobalInvocationID.x);
+    int lobelia_k = lobelia_i / %points%;
+    if (lobelia_k < %outputs%) {
+        int lobelia_t = lobelia_i - lobelia_k * %points%;
+        vec4 lobelia_value = vec4(0.0);
+%fetches%%calls%        lobelia_results[lobelia_i] = lobelia_value;
     }
 }
 )";
@@ -53,14 +57,14 @@ constexpr std::string_view kHlslMain = R"(
 struct LobeliaPoint { float4 texels[%texels%]; };
 [[vk::binding(0, 0)]] StructuredBuffer<LobeliaPoint> lobelia_points;
 [[vk::binding(1, 0)]] RWStructuredBuffer<float4> lobelia_results;
-[numthreads(%group%, 1, 1)] void lobelia_main(uint3 id : SV_DispatchThreadID)
+[numthreads(%group%, 1, 1)] void lobelia_main(uint3 lobelia_id : SV_DispatchThreadID)
 {
-    int i = int(id.y) * %row% + int(id.x);
-    int k = i / %points%;
-    if (k < %outputs%) {
-        int t = i - k * %points%;
-        float4 result = float4(0.0, 0.0, 0.0, 0.0);
-%fetches%%calls%        lobelia_results[i] = result;
+    int lobelia_i = int(lobelia_id.y) * %row% + int(lobelia_id.x);
+    int lobelia_k = lobelia_i / %points%;
+    if (lobelia_k < %outputs%) {
+        int lobelia_t = lobelia_i - lobelia_k * %points%;
+        float4 lobelia_value = float4(0.0, 0.0, 0.0, 0.0);
+%fetches%%calls%        lobelia_results[lobelia_i] = lobelia_value;
     }
 }
 )";
@@ -69,14 +73,14 @@ constexpr std::string_view kWgslMain = R"(
 @group(0) @binding(0) var<storage, read> lobelia_points: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> lobelia_results: array<vec4f>;
 @compute @workgroup_size(%group%)
-fn lobelia_main(@builtin(global_invocation_id) id: vec3u)
+fn lobelia_main(@builtin(global_invocation_id) lobelia_id: vec3u)
 {
-    let i = i32(id.y) * %row% + i32(id.x);
-    let k = i / %points%;
-    if (k >= %outputs%) { return; }
-    let t = (i - k * %points%) * %texels%;
-    var result = vec4f(0.0);
-%fetches%%calls%    lobelia_results[i] = result;
+    let lobelia_i = i32(lobelia_id.y) * %row% + i32(lobelia_id.x);
+    let lobelia_k = lobelia_i / %points%;
+    if (lobelia_k >= %outputs%) { return; }
+    let lobelia_t = (lobelia_i - lobelia_k * %points%) * %texels%;
+    var lobelia_value = vec4f(0.0);
+%fetches%%calls%    lobelia_results[lobelia_i] = lobelia_value;
 }
 )";
 
@@ -235,11 +239,13 @@ void refuse_includes(const ShaderSource& source, std::string_view plain) {
 /// The text without its #version, and the one that a driver needs for it.
 struct Version {
   std::string line, rest;
-  std::size_t at = 0;  ///< the line of the text that had it; 0: none
+  std::size_t at = 0;          ///< the line of the text that had it; 0: none
+  std::string directive = {};  ///< as the text has it
 };
 Version take_version(const std::string& text, ShaderApi api) {
   std::string rest = text;
   std::size_t at_line = 0;
+  std::string directive;
   long long number = 0;
   bool is_es = false;
   for (std::size_t at = 0; at < text.size();) {
@@ -248,15 +254,16 @@ Version take_version(const std::string& text, ShaderApi api) {
     if (tokens.size() >= 3 && tokens[0] == "#" && tokens[1] == "version" &&
         parse_integer(tokens[2], number)) {
       is_es = (tokens.size() > 3 && tokens[3] == "es") || number == 100;
+      directive = text.substr(at, end - at);
       rest.replace(at, end - at, "");
       at_line = 1 + count_lines(text.substr(0, at));
       break;
     }
     at = end + 1;
   }
-  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest, at_line};
+  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest, at_line, directive};
   number = std::clamp(number, is_es ? 300LL : 330LL, 999LL);
-  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest, at_line};
+  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest, at_line, directive};
 }
 
 }  // namespace
@@ -288,20 +295,22 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   const std::size_t texels = texels_of_point(components);
   std::string fetches, calls;
   for (std::size_t t = 0; t < texels; ++t)
-    fetches += is_wgsl ? fmt::format("    var lobelia_p{0} = lobelia_points[t + {0}];\n", t)
-               : api == ShaderApi::kEgl
-                   ? fmt::format(
-                         "    vec4 lobelia_p{0} = texelFetch(lobelia_points, ivec2((t + {0}) "
-                         "% {1}, (t + {0}) / {1}), 0);\n",
-                         t, kRunnerWidth)
-                   : fmt::format("        {1} lobelia_p{0} = lobelia_points[t].texels[{0}];\n", t,
-                                 is_hlsl ? "float4" : "vec4");
+    fetches +=
+        is_wgsl ? fmt::format("    var lobelia_p{0} = lobelia_points[lobelia_t + {0}];\n", t)
+        : api == ShaderApi::kEgl
+            ? fmt::format(
+                  "    vec4 lobelia_p{0} = texelFetch(lobelia_points, ivec2((lobelia_t + "
+                  "{0}) % {1}, (lobelia_t + {0}) / {1}), 0);\n",
+                  t, kRunnerWidth)
+            : fmt::format("        {1} lobelia_p{0} = lobelia_points[lobelia_t].texels[{0}];\n", t,
+                          is_hlsl ? "float4" : "vec4");
   for (std::size_t k = 0; k < source.calls.size(); ++k) {
     // WGSL has no overloads, but vec3f() of a number and of a vector.
     const std::string value = is_wgsl ? fmt::format("vec4f(vec3f({}), 1.0)", source.calls[k])
                                       : fmt::format("lobelia_as_four({})", source.calls[k]);
-    calls += fmt::format("    {}{{ result = {}; }}\n",
-                         source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "", value);
+    calls +=
+        fmt::format("    {}{{ lobelia_value = {}; }}\n",
+                    source.calls.size() > 1 ? fmt::format("if (lobelia_k == {}) ", k) : "", value);
   }
   std::string begin, text = plain_text(source);
   std::size_t version_line = 0;
@@ -316,15 +325,14 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
     text = std::move(version.rest);
     version_line = version.at;
   }
-  ShaderProgram program{source.name, "", count_lines(begin), 0, version_line};
+  ShaderProgram program{source.name, "", count_lines(begin), 0, version_line, source.is_own};
   if (text.empty() || text.back() != '\n') text += '\n';
   program.lines = count_lines(text);
   const std::string_view main = is_wgsl                  ? kWgslMain
                                 : is_hlsl                ? kHlslMain
                                 : api == ShaderApi::kEgl ? kFragmentMain
                                                          : kGlslComputeMain;
-  program.bytes = begin + text +
-                  (is_hlsl || is_wgsl ? "" : "#undef main\nprecision highp float;\n") +
+  program.bytes = begin + text + (is_hlsl || is_wgsl ? "" : kOwnPrecision) +
                   fill((is_wgsl ? "" : std::string(kAsFour)) + std::string(main),
                        {{"vec4", is_hlsl ? "float4" : "vec4"},
                         {"vec3", is_hlsl ? "float3" : "vec3"},
@@ -361,7 +369,17 @@ std::set<std::string> functions_in(std::string_view plain) {
   return names;
 }
 
-std::string compiler_message(const std::string& log, const ShaderProgram& program) {
+std::string version_directive(const ShaderSource& source) {
+  return source.language == ShaderText::kGlsl
+             ? take_version(plain_text(source), ShaderApi::kEgl).directive
+             : "";
+}
+
+std::string words_for(const ShaderProgram& program) {
+  return program.is_own ? "Lobelia's own shader" : program.name + ": the shader";
+}
+
+Error refusal(const std::string& log, const ShaderProgram& program) {
   // Mesa: "0:12(5): error: WORDS"; NVIDIA: "0(12) : error C1: WORDS"; glslang: "ERROR: FILE:12: WORDS".
   static const std::regex mesa("^[0-9]+:([0-9]+)\\([0-9]+\\): error: (.*)$"),
       nvidia("^[0-9]+\\(([0-9]+)\\) : error (.*)$"), glslang("^ERROR: (?:.*:)?([0-9]+): (.*)$");
@@ -374,14 +392,18 @@ std::string compiler_message(const std::string& log, const ShaderProgram& progra
       continue;
     const std::size_t at = std::stoul(found[1].str().substr(0, 9));
     const std::string words = printable(found[2].str(), 200);
-    if (at > program.first_line && at <= program.first_line + program.lines)
-      return fmt::format("{}:{}: {}", program.name, at - program.first_line, words);
     if (at > 0 && at <= program.first_line && program.version_line > 0)
-      return fmt::format("{}:{}: {}", program.name, program.version_line, words);
-    return fmt::format("{}: the call of the function does not compile: {}", program.name, words);
+      return {ExitCode::kInput, "{}:{}: {}", program.name, program.version_line, words};
+    if (program.is_own)
+      return {ExitCode::kEngine, "Lobelia's own shader does not compile on this driver: {}", words};
+    if (at > program.first_line && at <= program.first_line + program.lines)
+      return {ExitCode::kInput, "{}:{}: {}", program.name, at - program.first_line, words};
+    return {ExitCode::kInput, "{}: the call of the function does not compile: {}", program.name,
+            words};
   }
-  return fmt::format("{}: the compiler refuses it: {}", program.name,
-                     printable(log.empty() ? "no reason given" : log, 200));
+  return {program.is_own ? ExitCode::kEngine : ExitCode::kInput, "{}: the compiler refuses it: {}",
+          program.is_own ? "Lobelia's own shader" : program.name,
+          printable(log.empty() ? "no reason given" : log, 200)};
 }
 
 }  // namespace lobelia

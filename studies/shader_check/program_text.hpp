@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "base/system/error.hpp"
 #include "base/system/process.hpp"
 #include "studies/shader_check/run_shaders.hpp"
 
@@ -24,8 +25,14 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
 /// The names of the functions that a plain text defines, in any of the languages.
 std::set<std::string> functions_in(std::string_view plain);
 
-/// A compiler's first error in one line: "mine.glsl:12: 'foo' : undeclared identifier".
-std::string compiler_message(const std::string& log, const ShaderProgram& program);
+/// The #version of a text; "" if it has none.
+std::string version_directive(const ShaderSource& source);
+
+/// A compiler's first error in one line: "mine.glsl:12: 'foo' : undeclared identifier". Error(kEngine) for Lobelia's own
+/// program, unless the driver lacks the version that somebody's shader asks for.
+Error refusal(const std::string& log, const ShaderProgram& program);
+/// "mine.glsl: the shader", for messages.
+std::string words_for(const ShaderProgram& program);
 
 // Shared by run_shaders.cpp, run_webgpu.cpp and spirv.cpp.
 

@@ -37,6 +37,7 @@ struct Said {
   explicit Said(std::size_t programs) : token(random_token()), seconds(programs) {}
   const std::string token;
   std::string device, driver, rest;
+  std::size_t program = 0;  ///< that is compiled or run
   std::vector<std::vector<double>> seconds;
 
   void add(std::string_view line) {
@@ -54,6 +55,11 @@ struct Said {
       device = printable(line.substr(std::strlen(kDeviceLine)));
     } else if (line.starts_with(kDriverLine)) {
       driver = printable(line.substr(std::strlen(kDriverLine)));
+    } else if (line.starts_with(kProgramLine)) {
+      long long k = 0;
+      if (parse_integer(line.substr(std::strlen(kProgramLine)), k) && k >= 0 &&
+          std::size_t(k) < seconds.size())
+        program = std::size_t(k);
     } else if (line.starts_with(kSecondsLine)) {
       const auto parts = split(line, " ");
       long long program = 0;
@@ -75,16 +81,16 @@ std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
 [[noreturn]] void fail(const ProcessResult& result, ShaderApi api, const Said& said,
                        const std::vector<ShaderProgram>& programs,
                        const ShaderRunOptions& options) {
-  const std::string& name = programs.front().name;
+  const ShaderProgram& program = programs[said.program];
+  const ExitCode whose = program.is_own ? ExitCode::kEngine : ExitCode::kInput;
   if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   if (result.timed_out)
-    throw Error(ExitCode::kInput, "{}: the shader did not end within {:g} s on {}", name,
+    throw Error(whose, "{} did not end within {:g} s on {}", words_for(program),
                 options.time_limit.seconds(),
                 said.device.empty() ? kShaderApiNames[int(api)] : said.device);
   if (result.out_of_memory)
-    throw Error(ExitCode::kEngine, "{}: the shader runner ran out of memory", name);
-  if (result.exit_code == kRunnerRefusedProgram)
-    throw Error(ExitCode::kInput, compiler_message(said.rest, programs.front()));
+    throw Error(ExitCode::kEngine, "{} made the runner run out of memory", words_for(program));
+  if (result.exit_code == kRunnerRefusedProgram) throw refusal(said.rest, program);
   if (result.exit_code == kRunnerNoDevice)
     throw Error(ExitCode::kEngine, "no driver runs shaders here ({}); install {}",
                 printable(split(said.rest + "\n", "\n").empty() ? std::string("no reason given")
@@ -92,9 +98,9 @@ std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
                 api == ShaderApi::kEgl ? "libgl1-mesa-dri" : "mesa-vulkan-drivers");
   throw Error(ExitCode::kEngine,
               result.exit_code > kSignalBase
-                  ? fmt::format("{}: the driver was ended by signal {} while it ran the shader",
-                                name, result.exit_code - kSignalBase)
-                  : fmt::format("{}: the shader runner stopped with exit code {}: {}", name,
+                  ? fmt::format("{} ended the driver by signal {}", words_for(program),
+                                result.exit_code - kSignalBase)
+                  : fmt::format("{} stopped the runner with exit code {}: {}", words_for(program),
                                 result.exit_code, printable(said.rest, 200)));
 }
 

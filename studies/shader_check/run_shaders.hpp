@@ -30,6 +30,7 @@ struct ShaderSource {
   /// Each is an expression of a number or a vector of 3 or 4. It may use the components of a point: component 5 is
   /// shader_component(5).
   std::vector<std::string> calls;
+  bool is_own = false;  ///< Lobelia's own: if it fails, the driver is wrong
 };
 
 /// "lobelia_p1.y" for 5.
@@ -62,6 +63,7 @@ struct ShaderProgram {
   std::string bytes;
   std::size_t first_line = 0, lines = 0;  ///< of the source in the text, for messages
   std::size_t version_line = 0;  ///< of the source's #version in it, from 1; 0: it has none
+  bool is_own = false;
 };
 
 /// The usual limit, which ends an endless loop.
@@ -106,7 +108,7 @@ struct ShaderRunOptions {
 };
 
 /// Runs programs that were made for these points, by turns. Throws Error(kInput) if the driver refuses a program or one does
-/// not end in time, and Error(kEngine) if the runner or a driver is missing or crashes.
+/// not end in time, and Error(kEngine) if the program is Lobelia's own, or the runner or a driver is missing or crashes.
 ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
                        const std::vector<ShaderProgram>& programs, std::size_t calls,
                        const ShaderRunOptions& options = {});

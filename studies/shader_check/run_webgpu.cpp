@@ -122,10 +122,9 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
   process.stop = &heard.done;
   process.on_line = [&](std::string_view line) { heard.add(line); };
   const ProcessResult result = run_within(options.time_limit, command, std::move(process));
-  const std::string& name = programs.front().name;
+  const std::string& name = programs.back().name;
   if (!heard.done && result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
-  if (heard.refused)
-    throw Error(ExitCode::kInput, compiler_message(heard.log, programs[*heard.refused]));
+  if (heard.refused) throw refusal(heard.log, programs[*heard.refused]);
   if (heard.is_none)
     throw Error(ExitCode::kEngine, "no driver runs shaders here: Chromium has no WebGPU");
   if (!heard.done)

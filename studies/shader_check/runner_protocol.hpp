@@ -5,8 +5,8 @@
 // runs in a directory of its own. The file "points" there has POINTS times TEXELS times four floats. Each PROGRAM is a
 // file: a fragment shader for EGL, SPIR-V of a compute shader for Vulkan. Invocation i works on point i % POINTS and
 // output i / POINTS, and writes four floats to PROGRAM.out, the last of them 1. With ROUNDS, all programs are run by
-// turns, and "seconds K S" is printed for each run of program K. "device NAME" and "driver VERSION" come first. TOKEN and a
-// blank precede each of these lines. Other lines are a compiler's or a driver's: they may quote the shader.
+// turns, and "seconds K S" is printed for each run of program K. "device NAME" and "driver VERSION" come first, and "program K"
+// before program K is compiled and before it is run. TOKEN and a blank precede each of these lines. Other lines are a compiler's or a driver's: they may quote the shader.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace lobelia {
 inline constexpr char kShaderRunnerFile[] = "lobelia_shader_runner";
 inline constexpr char kPointsFile[] = "points";
 inline constexpr char kDeviceLine[] = "device ", kDriverLine[] = "driver ";
-inline constexpr char kSecondsLine[] = "seconds ";
+inline constexpr char kProgramLine[] = "program ", kSecondsLine[] = "seconds ";
 
 enum RunnerExit : int {
   kRunnerDone = 0,

@@ -79,7 +79,7 @@ ShaderProgram make_program(const ShaderSource& source, ShaderApi api, std::size_
     options.insert(options.end(), {"-D", "-e", "main", "--source-entrypoint", "lobelia_main"});
   options.insert(options.end(), {"-o", "out", "in"});
   const ToolRun run = run_tool(kCompiler, std::move(options), program, limit);
-  if (run.out.empty()) throw Error(ExitCode::kInput, compiler_message(run.said, program));
+  if (run.out.empty()) throw refusal(run.said, program);
   program.bytes = run.out;
   return program;
 }

@@ -122,13 +122,15 @@ TEST(PlainText, UnreadableTextIsRefusedInOneLine) {
 }
 
 TEST(CompilerMessage, AVersionThatTheDriverLacksIsNamedByItsLine) {
-  const ShaderProgram program = program_of("// mine\n#version 460 core\nfloat x;\n");
-  EXPECT_EQ(compiler_message("0:1(10): error: GLSL 4.60 is not supported. Supported versions "
-                             "are: 4.50, and 3.20 ES\n",
-                             program),
+  ShaderProgram program = program_of("// mine\n#version 460 core\nfloat x;\n");
+  const auto words = [&](const std::string& log) -> std::string {
+    return refusal(log, program).what();
+  };
+  EXPECT_EQ(words("0:1(10): error: GLSL 4.60 is not supported. Supported versions "
+                  "are: 4.50, and 3.20 ES\n"),
             "mine:2: GLSL 4.60 is not supported. Supported versions are: 4.50, and 3.20 ES");
-  EXPECT_EQ(compiler_message("0:4(1): error: no\n", program), "mine:3: no");
-  EXPECT_THAT(compiler_message("0:90(1): error: no\n", program), HasSubstr("the call of"));
+  EXPECT_EQ(words("0:4(1): error: no\n"), "mine:3: no");
+  EXPECT_THAT(words("0:90(1): error: no\n"), HasSubstr("the call of"));
 }
 
 TEST(CheckShaderCommandWithoutADriver, AMillionBytesOfOpenCallsAreReadInOnePass) {

@@ -2,6 +2,7 @@
 #include "base/pictures/image_io_module.hpp"
 #include "base/system/files.hpp"
 #include "base/system/process.hpp"
+#include "studies/shader_check/program_text.hpp"
 #include "studies/shader_check/runner_protocol.hpp"
 #include "tests/shaders/export_values.hpp"
 #include "tests/shaders/shader_runner.hpp"
@@ -222,6 +223,27 @@ TEST_F(RunInABrowser, EveryWgslFunctionHasTheRadianceOfTheFormulasOnWebGpu) {
   expect_the_formulas(ShaderText::kWgsl, ShaderApi::kWebGpu);
 }
 
+TEST_F(RunByADriver, AFailureIsThatOfTheProgramThatFailed) {
+  const auto failure = [](const std::string& own, const std::string& theirs) {
+    ShaderProgram ours =
+        program_text({ShaderText::kGlsl, "mine", "", {own}, true}, ShaderApi::kEgl, 1, 1);
+    try {
+      run_programs(
+          ShaderApi::kEgl, {1, {0}},
+          {ours, program_text({ShaderText::kGlsl, "mine", "", {theirs}}, ShaderApi::kEgl, 1, 1)}, 1,
+          {std::chrono::hours(1), 0});
+    } catch (const Error& error) {
+      return fmt::format("{}: {}", int(error.code()), error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(failure("1.0", "2.0"), "");
+  EXPECT_THAT(failure("none", "none"),
+              testing::StartsWith("5: Lobelia's own shader does not compile on this driver: "));
+  EXPECT_THAT(failure("1.0", "none"),
+              testing::StartsWith("3: mine: the call of the function does not compile: "));
+}
+
 TEST_F(RunByADriver, TheTokenBeginsTheRunnersOwnLinesAlone) {
   const TemporaryDirectory scratch;
   write_file(scratch.path() / kPointsFile, std::string(4 * sizeof(float), '\0'));
@@ -237,7 +259,7 @@ TEST_F(RunByADriver, TheTokenBeginsTheRunnersOwnLinesAlone) {
       options);
   EXPECT_EQ(result.exit_code, int(kRunnerRefusedProgram));
   EXPECT_THAT(own, testing::ElementsAre(testing::StartsWith("TOKEN device "),
-                                        testing::StartsWith("TOKEN driver ")));
+                                        testing::StartsWith("TOKEN driver "), "TOKEN program 0"));
   EXPECT_THAT(others, testing::Contains(testing::HasSubstr("FORGED")));
 }
 

@@ -9,6 +9,7 @@
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/mistakes.hpp"
+#include "studies/shader_check/own_shader.hpp"
 #include "studies/shader_check/program_text.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
@@ -93,6 +94,71 @@ TEST_F(ShaderCheck, PassesTheExportedFunctionOfEveryModelInBothLanguages) {
       request.exponents = {1e6};
       EXPECT_EQ(shader_check::check_shader(request).record.verdict, "passes") << request.function;
     }
+}
+
+TEST_F(ShaderCheck, PassesAnExportedFunctionInEveryVersionOfGlsl) {
+  for (const char* version : {"#version 300 es", "#version 310 es", "#version 100", "#version 110",
+                              "#version 330 core", "#version 450"})
+    for (const char* model : {"modified_phong", "microfacet_smith"}) {
+      shader_check::Request request = request_of_export(model);
+      request.exponents = {16, 1000};
+      request.text = std::string(version) + "\n" + request.text;
+      const Check check = shader_check::check_shader(request);
+      EXPECT_EQ(check.record.verdict, "passes") << version << "\n"
+                                                << shader_check::report_text(check.record);
+    }
+}
+
+TEST_F(ShaderCheck, TakesTheDriverForRightWithEveryModelAndLobe) {
+  for (const ModelId model : all_models()) {
+    shader_check::Request request = request_of(info(model).name.data(), "");
+    std::vector<shader_check::Point> points;
+    for (const double n : {kMinExponent, 0.5, 2.0, 30.0, 1e4, 1e6}) {
+      const auto more = shader_check::domain_points(request.highlight, n, 200);
+      points.insert(points.end(), more.begin(), more.end());
+    }
+    for (const LobeId& lobe : all_lobes()) {
+      request.highlight.lobe = lobe;
+      // The coefficient is that of the lobe.
+      const ShaderPoints called = shader_check::Arguments("n", request.highlight).of(points);
+      const ShaderRun run =
+          run_programs(request.api, called,
+                       {make_program(shader_check::own_source(request), request.api, called.count(),
+                                     called.components)},
+                       1, {kHang, 0});
+      EXPECT_NO_THROW(
+          shader_check::require_right_driver(request, run.device, points, run.values.front()))
+          << info(model).name << " " << info(lobe).name;
+    }
+  }
+}
+
+TEST_F(ShaderCheck, ADriverOnWhichOurExportIsWrongIsToldInPlaceOfTheShader) {
+  shader_check::Request request = request_of_export("modified_phong");
+  const std::vector<shader_check::Point> points =
+      shader_check::domain_points(request.highlight, 16, 50);
+  std::vector<ShaderValue> values(points.size());
+  Highlight here = request.highlight;
+  here.exponent = 16;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    values[i].r =
+        float(model_radiance(here, radiance_coefficient(here), shader_check::Geometry(points[i])));
+    values[i].written = true;
+  }
+  const auto told = [&] {
+    try {
+      shader_check::require_right_driver(request, "a driver", points, values);
+    } catch (const Error& error) {
+      return fmt::format("{}: {}", int(error.code()), error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told(), "");
+  values[7].r += 1e-2f;
+  EXPECT_THAT(told(),
+              testing::StartsWith("5: a driver: Lobelia's own export of modified_phong is wrong "));
+  values[7].r = std::nanf("");
+  EXPECT_THAT(told(), testing::StartsWith("5: a driver: "));
 }
 
 TEST_F(ShaderCheck, PassesATextbookPowerAsFarAsFloat32KnowsItsCosine) {

@@ -64,9 +64,14 @@ void run(int argument_count, char** arguments) {
                                                               : make_vulkan_driver(work, points);
   std::printf("%s %s%s\n", token, kDeviceLine, driver->device().c_str());
   std::printf("%s %s%s\n", token, kDriverLine, driver->version().c_str());
-  for (int i = kFirstProgram; i < argument_count; ++i) driver->add(bytes_of(arguments[i]));
   const auto count = std::size_t(argument_count - kFirstProgram);
+  const auto begin = [&](std::size_t k) { std::printf("%s %s%zu\n", token, kProgramLine, k); };
   for (std::size_t k = 0; k < count; ++k) {
+    begin(k);
+    driver->add(bytes_of(arguments[kFirstProgram + k]));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    begin(k);
     driver->run(k);
     write_results(std::string(arguments[kFirstProgram + k]) + ".out", driver->results());
   }
