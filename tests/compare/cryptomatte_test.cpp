@@ -163,29 +163,6 @@ TEST_F(Cryptomatte, SaysByHowMuchAnObjectsCoverageDiffers) {
   EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
 }
 
-TEST_F(Cryptomatte, IsExactInTheLowestRankToo) {
-  Ranks b = scene(), a = b;
-  for (std::size_t i = 0; i < kPixels; ++i)
-    b[3][i] = {kBall ^ 1u, 0.004f}, a[3][i] = {kBall, 0.004f};
-  EXPECT_EQ(value(compare_ranks(a, b), "identifier.pixels"), kPixels);
-}
-
-TEST_F(Cryptomatte, ComparesBitsOfZeroAndNan) {
-  Ranks b = scene(), a = b;
-  b[0][0].id = a[0][0].id = 0x7fc00001;  // a NaN, the same
-  b[0][1].id = 0x7fc00001, a[0][1].id = 0x7fc00002;
-  b[0][2].id = 0, a[0][2].id = 0x80000000;
-  const LayerComparison layer = compare_ranks(a, b);
-  EXPECT_EQ(value(layer, "identifier.pixels"), 2);
-  EXPECT_EQ(layer.verdict(), Verdict::kDiffers);
-}
-
-TEST_F(Cryptomatte, IsNotFiniteWithACoverageThatIsNoNumber) {
-  Ranks a = scene();
-  a[1][4].share = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(compare_ranks(a, scene()).verdict(), Verdict::kNonFinite);
-}
-
 TEST_F(Cryptomatte, PassesWithCoverageInHalfFloats) {
   Ranks b = scene();
   std::mt19937 random(2);

@@ -56,16 +56,6 @@ TEST(Highlight, DefaultLimitsFindEveryPlantedChange) {
       }
 }
 
-TEST(Highlight, DefaultLimitsFindChangesOfADimHighlight) {
-  for (const float peak : {1.0f, 0.2f, 0.05f, 1e-3f}) {
-    const Image full = picture_of(200);
-    const Image reference = scaled(full, peak / float(peak_value(full)));
-    for (const Change& change : sensitivity(reference, as_by_default()))
-      EXPECT_TRUE(change.is_as_expected())
-          << "peak " << peak << ": " << change.name << ", by " << change.found_by;
-  }
-}
-
 /// A limit on the metric that a user would sensibly set: far above rounding, or a usual figure.
 double loose_limit(const MetricOutput& output, double peak) {
   switch (output.better) {
@@ -126,15 +116,6 @@ TEST(Highlight, DiffersFromBlackOrWarnsOfBlindLimits) {
   options.limits = {{"max_rel_peak", 0.1}, {"max_rel_peak", 0.2}};
   EXPECT_THAT(compare(black, reference, options).blind_limits.at(0),
               HasSubstr("max_rel_peak has two limits"));
-}
-
-TEST(Highlight, AddsLimitsToTheDefaults) {
-  const Image reference = picture_of(200);
-  ComparisonOptions options = as_by_default();
-  options.limits = {{"rmse", 1e6}, {"max_rel_peak", 0.5}};
-  const Comparison comparison = compare(reference, reference, options);
-  EXPECT_EQ(comparison.limits.size(), 2 + default_limits().size() - 1 + highlight_limits().size());
-  EXPECT_EQ(std::ranges::count(comparison.limits, "max_rel_peak", &LimitResult::metric), 1);
 }
 
 // A second computation of what is measured in a region, by plain loops over the whole picture's maps.

@@ -194,33 +194,6 @@ TEST(HighlightsTable, NamesTheColourWhereTheLightIsTheSame) {
   EXPECT_THAT(said(1.2, 1.1, 1.1), HasSubstr("% more light"));
 }
 
-TEST(HighlightsTable, SaysOnePixel) {
-  records::LocalHighlight moved;
-  moved.shift_x = -1;
-  moved.shift_y = 2;
-  moved.excess = 4;
-  EXPECT_THAT(sentences_on_highlights(std::array{moved}),
-              ::testing::ElementsAre(
-                  "the highlight at (0, 0) lies 1 pixel to the left, lies 2 pixels down"));
-}
-
-TEST(HighlightsTable, TellsABroadHighlightFromTheNarrowOneOnIt) {
-  records::LocalHighlight narrow;
-  narrow.x = 142;
-  narrow.y = 92;
-  narrow.pixels = 40;
-  narrow.gone = true;
-  narrow.excess = 30;
-  records::LocalHighlight broad = narrow;
-  broad.pixels = 4000;
-  broad.gone = false;
-  broad.energy = -0.1;
-  EXPECT_EQ(
-      sentences_on_highlights(std::array{narrow, broad}),
-      (std::vector<std::string>{"the highlight at (142, 92) is gone",
-                                "the broader highlight around (142, 92) has 10 % less light"}));
-}
-
 TEST(HighlightsTable, NamesTheWorstFirst) {
   const Spot left{30, 60, 1, 4, 4}, middle{80, 60, 0.5, 4, 4}, right{130, 60, 0.3, 4, 4};
   const auto with = [&](double of_left, double of_middle, double of_right) {
@@ -254,16 +227,6 @@ TEST(HighlightsTable, SaysThatAFigureIsOfAllBrightPixels) {
               HasSubstr("a's brightest pixels together are 23 % narrower"));
   EXPECT_THAT(highlight_sentence(compare(with(1), with(1), options)),
               HasSubstr("a's highlight is as wide"));
-}
-
-TEST(HighlightsTable, HasNoAlarmForAUniformFactorWithinTheLimits) {
-  std::mt19937 random(58);
-  for (int round = 0; round < 40; ++round) {
-    const Image reference = random_case(random, round % 2 == 0 ? 1000 : 3).with();
-    for (const double factor : {0.99, 1.01})
-      EXPECT_EQ(judged(each(reference, [&](double v) { return factor * v; }), reference).verdict,
-                Verdict::kPass);
-  }
 }
 
 /// Waves of several lengths, as of a texture, on a slope.

@@ -189,14 +189,6 @@ TEST_F(Depth, CountsPixelsWhereOneAloneHasASurface) {
   }
 }
 
-TEST_F(Depth, IsNotFiniteWithANanInOneAlone) {
-  std::vector<float> b = random_depths(2), a = b;
-  a[5] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(compare_channels({channel(a)}, {channel(b)}).verdict(), Verdict::kNonFinite);
-  b[5] = a[5];
-  EXPECT_EQ(compare_channels({channel(a)}, {channel(b)}).verdict(), Verdict::kPass);
-}
-
 class Vectors : public LayerFiles {
  protected:
   using Three = std::array<std::vector<float>, 3>;
@@ -283,28 +275,6 @@ TEST_F(LayerFiles, TakeTheGivenTypeBeforeTheirOwn) {
   how.layer_types = {{"mien", LayerType::kDepth}};
   EXPECT_THAT(error_words(ExitCode::kInput, [&] { compare_one(how); }),
               HasSubstr("no layer 'mien'; did you mean 'mine'?"));
-}
-
-TEST_F(LayerFiles, ColoursKeepTheirDigits) {
-  // compare_pictures() of a file's colours gives what compare() does, bit for bit, and no metric of layers.
-  const Image a = fixtures::highlight(48, 40, 20, 3.0), b = fixtures::highlight(48, 40, 22, 3.1);
-  PicturePair pair{{a, {}, {}}, {b, {}, {}}};
-  for (Picture* picture : {&pair.a, &pair.b}) {
-    picture->source.format = "openexr";
-    picture->source.channels = {"R", "G", "B"};
-    picture->source.value_type = "float";
-  }
-  ComparisonOptions how = options();
-  how.limits = {{"depth.relative.max", 0.5}, {"identifier.pixels", 0}};
-  ComparisonOptions plain = options();
-  const Comparison by_type = compare_pictures(pair, "a", "b", how), direct = compare(a, b, plain);
-  ASSERT_EQ(by_type.metrics.size(), direct.metrics.size());
-  for (std::size_t i = 0; i < direct.metrics.size(); ++i) {
-    EXPECT_EQ(by_type.metrics[i].first, direct.metrics[i].first);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(by_type.metrics[i].second),
-              std::bit_cast<std::uint64_t>(direct.metrics[i].second));
-  }
-  EXPECT_EQ(by_type.limits.size(), direct.limits.size());
 }
 
 TEST_F(LayerFiles, AlphaIsJudgedAsAShare) {

@@ -109,24 +109,6 @@ std::vector<SeenLobe> noisy(std::vector<SeenLobe> pixels, double share, bool kno
   return pixels;
 }
 
-TEST(LobeFamilies, HaveErrorsThatHoldTheTruthAsOftenAsTheyShould) {
-  const std::vector<SeenLobe> exact = blinn_phong(121);
-  std::mt19937 random(7);
-  for (const bool known : {true, false}) {
-    constexpr int kPictures = 40;
-    int within = 0;
-    for (int k = 0; k < kPictures; ++k)
-      for (const FamilyFit& one : explain_highlight(noisy(exact, 0.02, known, random), false)) {
-        if (one.family != FittedFamily::kBlinnPhong) continue;
-        within += std::abs(one.fit.width - 121) <= 2 * one.fit.standard_error;
-        if (known) {
-          EXPECT_NEAR(one.noise_share, 1, 0.05);
-        }
-      }
-    EXPECT_GE(within, 0.88 * kPictures) << known;
-  }
-}
-
 TEST(LobeFamilies, CannotBeToldApartInNoise) {
   // A Beckmann distribution and a power of the half vector's cosine are nearly the same.
   std::mt19937 random(11);

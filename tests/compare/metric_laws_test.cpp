@@ -100,25 +100,6 @@ TEST(EveryMetric, IsTheSameBitForBitMeasuredWithTheOthersAsAlone) {
   }
 }
 
-TEST(ValueErrors, AreThoseOfALongerSumWithinTheirBound) {
-  const Image a = fixtures::noise(613, 401, 1, 3.0f), b = fixtures::highlight(613, 401, 9, 2.5);
-  const auto errors = value_errors(fixtures::input(a, b));
-  long double sizes = 0, squares = 0, differences = 0, relative = 0;
-  for (std::size_t i = 0; i < a.values().size(); ++i) {
-    const long double reference = b.values()[i], difference = a.values()[i] - reference;
-    sizes += std::abs(difference);
-    squares += difference * difference;
-    differences += difference;
-    relative += difference * difference / (reference * reference + 0.01L);
-  }
-  const double roundings = (3 * 613 + 401) * 0x1p-53;
-  EXPECT_NEAR(errors->sizes, double(sizes), roundings * double(sizes));
-  EXPECT_NEAR(errors->squares, double(squares), roundings * double(squares));
-  EXPECT_NEAR(errors->differences, double(differences), roundings * double(sizes));
-  EXPECT_NEAR(errors->relative, double(relative), roundings * double(relative));
-  EXPECT_EQ(errors->count, a.values().size());
-}
-
 TEST(MetricCatalogue, HasUniqueIdsWithMeanings) {
   std::set<std::string_view> ids;
   for (const Metric* metric : metrics()) {
@@ -288,13 +269,6 @@ TEST(MetricLaws, TheNumberOfThreadsDoesNotChangeABit) {
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_THAT(measure(*metric, a, b), Pointwise(DoubleEq(), many)) << metric->outputs[0].id;
   }
-}
-
-TEST(MaxAbs, SaysWhichPixel) {
-  const Image a = fixtures::flat(9, 7, 0.5f, 0.5f, 0.5f);
-  Image b = a;
-  b.pixel(6, 2)[1] = 0.75f;
-  EXPECT_THAT(measure(*find_metric("max_abs"), a, b), ::testing::ElementsAre(0.25, 6, 2));
 }
 
 TEST(Psnr, IsInDecibelsOfTheReferencesPeak) {

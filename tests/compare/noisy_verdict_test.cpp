@@ -128,18 +128,5 @@ TEST(NoisyVerdict, IsStricterAtASmallerSignificanceAndWithMoreLimits) {
   EXPECT_GT(together, 3 * alone);
 }
 
-TEST(NoisyVerdict, SaysHowManyLimitsShareTheSignificance) {
-  ComparisonOptions options = usual_options();
-  const auto [a, b] = pair(0, 0.01f);
-  options.noise = NoiseOptions{.a = fixtures::even_noise(48, 48, 0.01f), .bootstraps = 4};
-  const auto all = default_limits().size() + highlight_limits().size();
-  const auto judges = [&] { return compare(a, b, options).uncertainty->judges.value(); };
-  EXPECT_EQ(judges(), int(all) + 1) << "all tests of pixels and regions are one";
-  options.limits = {{"rmse", 1}, {"max_rel_peak", 0.1}};
-  EXPECT_EQ(judges(), int(all) + 1) << "one replaces a default limit";
-  options.default_limits = false;
-  EXPECT_EQ(judges(), 2);
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -139,32 +139,6 @@ struct FullPatch : Patch {
   }
 };
 
-TEST(HighlightFigures, IgnoreTheBaseBeneath) {
-  const FullPatch patch;
-  const Image image = patch.image(
-      [&](double angle) { return FullPatch::kBase + 3 * gaussian_of_width(angle, 10); });
-  const Profile profile = measure_profile(patch.full(10, 20.8, 31.5), {{"ours", &image}}, {});
-  const HighlightFigures& figures = profile.figures.at(0);
-  EXPECT_EQ(figures.why_not, "");
-  const double middle = Patch::kSize / 2.0;
-  for (const FilmPoint place : {figures.peak.place, figures.centroid}) {
-    EXPECT_NEAR(place.x, middle, 1e-6);
-    EXPECT_NEAR(place.y, middle, 1e-6);
-  }
-  EXPECT_NEAR(figures.peak.value, 3, 1e-5);
-  const double pixel = 2 * Patch::kHalfAngle / Patch::kSize;
-  for (const HalfWidth& width : {figures.along, figures.across}) {
-    EXPECT_NEAR(width.angle / kDegree, 10, 0.002);
-    EXPECT_NEAR(width.pixels, 10 * kDegree / pixel, 0.005);
-  }
-  const double w = 10 * kDegree;
-  EXPECT_NEAR(figures.energy, 3 * std::numbers::pi * w * w / std::numbers::ln2,
-              1e-4 * figures.energy);
-  // exp(-n x^2 / 2), nearly: a cosine's power of ln 4 / width^2, but for terms of width^2.
-  EXPECT_NEAR(figures.cosine.width, 2 * std::numbers::ln2 / (w * w), 0.02 * figures.cosine.width);
-  EXPECT_GT(figures.cosine.residual, 1e-5);
-}
-
 TEST(HighlightFigures, ExplainMissingMeasurements) {
   const FullPatch patch;
   const auto of = [&](const Image& image, double end) {

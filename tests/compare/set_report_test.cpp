@@ -143,31 +143,6 @@ TEST(SetSummary, NamesTheWorstPairOfEachMetric) {
   for (const MetricSummary& one : summaries) EXPECT_NE(one.id, "max_abs.x") << "a fact";
 }
 
-TEST(SetRecord, HoldsARecordForEveryName) {
-  SetReport report = set_of({compared("good.exr", 0.5f, 0.5f), broken("x.exr")});
-  report.missing = {"gone.exr"};
-  report.passed_over = 3;
-  report.not_followed = {"a/out"};
-  EXPECT_EQ(
-      why_not_pass(compared("n.exr", std::nanf(""), 0.5f)),
-      "pixels with a NaN or an infinity: 400 in a, 0 in b; the first is nan in a/n.exr at x 0, "
-      "y 0, channel R");
-  EXPECT_EQ(why_not_pass(report.pairs[0]), "");
-  const Json record = as_json(set_record(report));
-  EXPECT_EQ(record["kind"], "comparison-set");
-  EXPECT_EQ(record["summary"]["pass"], 1);
-  EXPECT_EQ(record["summary"]["errors"], 1);
-  EXPECT_EQ(record["summary"]["missing"], 1);
-  EXPECT_EQ(record["summary"]["passedOver"], 3);
-  EXPECT_EQ(record["summary"]["linksNotFollowed"], 1);
-  EXPECT_EQ(record["linksNotFollowed"], Json({"a/out"}));
-  EXPECT_EQ(record["pairs"][0]["comparison"]["verdict"], "pass");
-  EXPECT_EQ(record["pairs"][0]["comparison"]["a"], "a/good.exr");
-  EXPECT_FALSE(record["pairs"][1].contains("comparison"));
-  EXPECT_THAT(record["pairs"][1]["error"].get<std::string>(), HasSubstr("not a readable"));
-  EXPECT_EQ(record["worst"]["rmse"]["pair"], "good.exr");
-}
-
 TEST(SetCsv, HasARowForEveryNameAndAsManyFieldsInEach) {
   SetReport report = set_of({compared("a \"b\", c\r\nd.exr", 0.5f, 0.6f), broken("x.exr")});
   report.missing = {"gone.exr"};

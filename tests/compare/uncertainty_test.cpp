@@ -91,16 +91,6 @@ TEST(Noise, IsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
   EXPECT_EQ(pooled.pixel(6, 7)[0], 0);
 }
 
-TEST(Noise, IsNeverLessThanAValuesOwnIfCautious) {
-  for (const NoiseKind kind : fixtures::kNoiseKinds) {
-    const Image halves[] = {fixtures::noisy(kind, 3, 8), fixtures::noisy(kind, 4, 8)};
-    const Image cautious = mean_of_replicates(halves, false).noise.cautious;
-    for (std::size_t i = 0; i < cautious.values().size(); ++i)
-      ASSERT_GE(cautious.values()[i],
-                0.49999f * std::abs(halves[0].values()[i] - halves[1].values()[i]));
-  }
-}
-
 TEST(Noise, FollowsThinLinesAndEdgesIfCautious) {
   // A pixel whose replicates happened to agree, on a noisy line, and on the noisy side of an edge.
   Image row = fixtures::flat(40, 40, 0, 0, 0), diagonal = row, edge = row;
@@ -166,27 +156,6 @@ TEST(ZTest, FindsNothingInNoiseBeyondItsSignificance) {
       EXPECT_LE(against_another, most_alarms(trials, kSignificance))
           << fixtures::name(kind) << count;
     }
-}
-
-TEST(ZTest, HoldsItsLevelWherePixelsErrTogether) {
-  // All pixels of a picture are too bright, or too dark, by the same number of standard errors.
-  constexpr int kTrials = 100, kEstimates = 16;
-  constexpr double kSignificance = 0.05;
-  const Image truth = fixtures::highlight(16, 16, 3, 1);
-  int shared = 0, independent = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    std::vector<Image> estimates(kEstimates, truth);
-    for (int k = 0; k < kEstimates; ++k)
-      for (float& value : estimates[std::size_t(k)].values())
-        value *= 1 + 0.1f * float(gaussian(std::uint64_t(trial), std::uint64_t(k)));
-    for (const bool told : {true, false}) {
-      const NoisyPicture a = mean_of_replicates(estimates, told);
-      (told ? shared : independent) +=
-          found(test_of(a.image, truth, {&a.noise, nullptr, kSignificance}));
-    }
-  }
-  EXPECT_LE(shared, most_alarms(kTrials, kSignificance));
-  EXPECT_GT(independent, kTrials / 2) << "that they do has to be said";
 }
 
 // ---- what is found
@@ -314,18 +283,6 @@ TEST(ZTest, SubtractsTheTolerance) {
   EXPECT_EQ(test_of(a, b, {&strong}, &tolerance).open, 256) << "most are within, none surely";
 }
 
-TEST(ZTest, RatesALargerErrorHigherAndALargerNoiseLower) {
-  const Image b = fixtures::highlight(32, 32, 3, 1);
-  const auto z = [&](double scale, float error) {
-    const PictureNoise noise = fixtures::even_noise(32, 32, error);
-    return test_of(fixtures::highlight(32, 32, 3, scale), b, {&noise, &noise}).largest;
-  };
-  EXPECT_LT(z(1.001, 0.1f), z(1.01, 0.1f));
-  EXPECT_LT(z(1.01, 0.1f), z(1.1, 0.1f));
-  EXPECT_LT(z(1.01, 0.1f), z(1.01, 0.05f));
-  EXPECT_GT(z(1.001, 0.1f), 0);
-}
-
 // ---- error bars
 
 const ErrorBar& bar_of(const Comparison& comparison, std::string_view id) {
@@ -393,22 +350,6 @@ TEST(ErrorBars, HaveTheNoiseFloorOfTheTextbook) {
   EXPECT_EQ(records::find(comparison.error_bars, "max_abs.x"), nullptr) << "a fact has none";
 }
 
-TEST(ErrorBars, AreTheFigureItselfWithoutNoise) {
-  const Image b = fixtures::highlight(32, 32, 5, 1), a = fixtures::highlight(32, 32, 5, 1.1);
-  ComparisonOptions options;
-  options.noise = NoiseOptions{.a = fixtures::even_noise(32, 32, 0)};
-  for (const Image* picture : {&a, &b}) {
-    const Comparison comparison = compare(*picture, b, options);
-    for (const auto& [id, bar] : comparison.error_bars) {
-      EXPECT_EQ(bar.standard_error, 0) << id;
-      const double value = comparison.value(id);
-      if (std::isinf(value)) continue;  // of equal pictures, in decibels
-      EXPECT_NEAR(bar.low, value, 1e-12 * std::abs(value)) << id;
-      EXPECT_NEAR(bar.high, value, 1e-12 * std::abs(value)) << id;
-    }
-  }
-}
-
 TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
   const Image b = fixtures::highlight(64, 64, 5, 1), a = fixtures::highlight(64, 64, 5, 1.1);
   ComparisonOptions options;
@@ -421,25 +362,6 @@ TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
   }
   options.noise->seed = 1;
   EXPECT_NE(error(), many);
-}
-
-TEST(ErrorBars, BreakNoLimitIfPixelsErrInGroups) {
-  // Neither each by itself nor all together: rows of pixels share their noise.
-  constexpr int kTrials = 30;
-  const Image b = fixtures::highlight(32, 32, 4, 1);
-  ComparisonOptions options;
-  options.limits = {{"max_abs", 0.01}, {"rmse", 0.002}, {"drift", 0.002}, {"flip.ldr.mean", 0.01}};
-  for (int trial = 0; trial < kTrials; ++trial) {
-    Image a = b;
-    for (int y = 0; y < 32; ++y)
-      for (int x = 0; x < 32; ++x)
-        for (float& value : a.pixel(x, y))
-          value += 0.05f * float(gaussian(std::uint64_t(trial), std::uint64_t(y)));
-    options.noise =
-        NoiseOptions{.a = fixtures::even_noise(32, 32, 0.05f, 15, true), .bootstraps = 8};
-    for (const LimitResult& limit : compare(a, b, options).limits)
-      EXPECT_NE(limit.standing, Standing::kBroken) << limit.metric;
-  }
 }
 
 }  // namespace

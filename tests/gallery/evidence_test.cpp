@@ -114,13 +114,6 @@ TEST_F(GalleryEvidence, MakesACellMissingWhicheverFileIsGone) {
   }
 }
 
-TEST_F(GalleryEvidence, MakesACellChangedByAnotherValue) {
-  change_value("povray", [](float value) { return value - 0.42f; });
-  expect_state("changed", "povray.exr is not the file that the farm wrote (SHA-256 ");
-  EXPECT_THAT(cell_text_, Not(HasSubstr("✓ pass"))) << "nor the comparison with it";
-  EXPECT_FALSE(fs::exists(file("povray.float.js"))) << "what is not evidence is not shown";
-}
-
 TEST_F(GalleryEvidence, MakesACellDamagedByValuesThatAreNotFinite) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {

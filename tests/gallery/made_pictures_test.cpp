@@ -167,14 +167,6 @@ TEST(Thumbnail, EnlargesOnlySmallHighlights) {
   EXPECT_EQ(image->pixel(100, 100)[0], 0);
 }
 
-TEST(Thumbnail, IsMadeWithoutTheSceneWhereThatCannotBeRead) {
-  const FakeFarm farm;
-  put_highlight(farm, 10, 10, 40);
-  EXPECT_TRUE(thumbnail(farm, [](const auto&, int, int) -> PixelFlags {
-    throw Error(ExitCode::kInput, "a scene of another version");
-  }));
-}
-
 TEST(Thumbnail, IsMadeAgainOnceTheSceneCanBeRead) {
   const FakeFarm farm;
   put_highlight(farm, 10, 10, 40);

@@ -22,8 +22,6 @@
 namespace lobelia::gallery {
 namespace {
 
-using ::testing::Contains;
-
 const std::string kPlace = "/srv/telltale place/of_me", kHost = "telltale-node7",
                   kUser = "telltale.user";
 
@@ -187,20 +185,6 @@ TEST(Publication, RemovesOldStylesWithOldScripts) {
   write_publication(farm.directory(), options);
   EXPECT_EQ(named(".js").size(), 1u);
   EXPECT_FALSE(fs::exists(options.site / "gallery-0123456789.js"));
-}
-
-TEST(Publication, IsTheSameBytesForTheSameRun) {
-  const FakeFarm farm;
-  const TemporaryDirectory place;
-  GalleryOptions options;
-  std::vector<std::string> bytes;
-  for (const char* folder : {"a", "b"}) {
-    options.site = place.path() / folder / "site.html";
-    write_publication(farm.directory(), options);
-    bytes.push_back(content(options.site));
-  }
-  EXPECT_EQ(bytes[0], bytes[1]);
-  write_publication(farm.directory(), options);  // its own may be replaced
 }
 
 TEST(Publication, RefusesADirectoryThatIsNotItsOwn) {

@@ -253,18 +253,6 @@ TEST_P(Agreement, HoldsForAFilmAsideInAWideAndInATallPicture) {
   expect_agreement({{"wide", wide}, {"tall", tall}});
 }
 
-TEST_P(Agreement, HoldsForASceneWithoutLight) {
-  const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 8}, {}, 16);
-  int results = 0;
-  render_all(*engine_, std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
-    ++results;
-    EXPECT_EQ(result.error, "");
-    EXPECT_EQ(result.image.pixel_count(), 16u * 16);
-    for (const float value : result.image.values()) EXPECT_EQ(value, 0.0f);
-  });
-  EXPECT_EQ(results, 1);
-}
-
 INSTANTIATE_TEST_SUITE_P(Engines, Agreement, testing::Values("povray", "blender"),
                          [](const auto& test) { return test.param; });
 

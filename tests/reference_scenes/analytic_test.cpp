@@ -72,15 +72,6 @@ TEST(Analytic, AgreesWithUsOnLampsOnSurfacesAndAHairBesideThem) {
                          hall_of_lamps_on_surfaces(aside, scale, away));
 }
 
-TEST(Analytic, AgreesWithItsFinerArithmetic) {
-  const Scene scene = hall_scene(kChoice, 16);
-  ReferenceOptions fine;
-  fine.fine = true;
-  const ReferenceResult exact = evaluated(scene, fine);
-  EXPECT_THAT(exact.record.method, HasSubstr("50 digits"));
-  EXPECT_LT(difference(evaluated(scene).image, exact.image, 0, 1).worst, 1e-7);
-}
-
 TEST(Analytic, RefusesASceneInWordsAndEvaluatesTheNext) {
   std::vector<Scene> scenes(2, hall_scene(kChoice, 8));
   scenes[0].depth.glossy = 1;

@@ -72,35 +72,6 @@ TEST_F(EnginesCommand, ExplainsHowToGetEachMissingEngine) {
     EXPECT_THAT(nowhere.output_tail, HasSubstr(": absent: no program '" + needed + "' in $PATH\n"));
 }
 
-TEST_F(EnginesCommand, PrintsTheVersionOfEveryFoundEngine) {
-  const auto found = played();
-  const auto result = run(programs(found));
-  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-  for (const auto& [name, path] : found) EXPECT_THAT(result.output_tail, HasSubstr(path));
-  for (const auto* version : {"3.7.0.10", "4.2.1", "0.98", "0.07.3", "0.187.0", "9.1.0", "4.6"})
-    EXPECT_THAT(result.output_tail, HasSubstr("  version     " + std::string(version)));
-  EXPECT_THAT(result.output_tail, Not(HasSubstr("apt-get")));
-}
-
-TEST_F(EnginesCommand, TellsABrokenEngineFromAnAbsentOne) {
-  const fs::path dead = directory_.path() / "dead", unstartable = directory_.path() / "unstartable";
-  write_file(dead, "#!/bin/sh\necho 'POV-Ray 3.7.0.10'; exit 1\n");
-  write_file(unstartable, "#!/no/such/interpreter\n");
-  for (const fs::path& path : {dead, unstartable}) fs::permissions(path, fs::perms::owner_all);
-  auto found = played();
-  found["povray"] = dead.string();
-  found["blender"] = unstartable.string();
-  const auto result = run(programs(found));
-  EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.output_tail, HasSubstr("lobelia: POV-Ray: broken: '" + dead.string() +
-                                            "' --version ended with exit code 1\n"));
-  EXPECT_THAT(result.output_tail, HasSubstr("lobelia: Blender Cycles: broken: "));
-  EXPECT_THAT(result.output_tail, Not(HasSubstr("absent")));
-  write_file(directory_.path() / "data", "no program");
-  EXPECT_THAT(run({"--povray", (directory_.path() / "data").string()}).output_tail,
-              HasSubstr("lobelia: POV-Ray: broken: '"));
-}
-
 TEST_F(EnginesCommand, PrintsARecordToo) {
   auto found = played();
   found["blender"] = program("bl", "Blender 5.0.0");

@@ -297,34 +297,5 @@ TEST(Mitsuba, SurvivesUnusualFiles) {
               testing::Contains(HasSubstr("nested deeper")));
 }
 
-TEST(Mitsuba, SurvivesRandomChangesOfItsBytes) {
-  const std::string seeds[] = {kTheirs, written(sayable(canonical_scene("two_lights"))),
-                               written(sayable(canonical_scene("effects/rectangle_light")))};
-  Random random(7);
-  for (int i = 0; i < 20'000; ++i) {
-    std::string text = seeds[std::size_t(random.below(int(std::size(seeds))))];
-    for (int changes = 1 + random.below(4); changes > 0 && !text.empty(); --changes) {
-      const std::size_t at = std::size_t(random.below(int(text.size())));
-      const std::string_view pieces[] = {"nan", "-1", "1e999", "0",   "\"",     "<",   ">",
-                                         "/>",  "$",  "\xff",  "inf", "sphere", "type"};
-      switch (random.below(4)) {
-        case 0:
-          text[at] = char(random.below(256));
-          break;
-        case 1:
-          text.erase(at, std::size_t(1 + random.below(20)));
-          break;
-        case 2:
-          text.insert(at, pieces[std::size_t(random.below(int(std::size(pieces))))]);
-          break;
-        default:
-          text.resize(at + 1);
-      }
-    }
-    expect_read_or_refused(text);
-    if (testing::Test::HasFatalFailure()) return;
-  }
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -114,18 +114,6 @@ TEST(TheReference, SeesASphereTouchedByOneUlp) {
   EXPECT_EQ(truth::Picture(scene).sphere(middle), -1);
 }
 
-TEST(TheReference, PutsThePeakOfALightBehindTheEyeIntoTheMiddle) {
-  const Scene scene = one_sphere();
-  const truth::Picture picture(scene);
-  const auto radiance = picture.highlights(scene.materials[0].highlight);
-  ASSERT_EQ(radiance.size(), 81u);
-  const double coefficient = 3 / (2 * kPi);
-  EXPECT_NEAR(radiance[40].r, coefficient * 0.5, 1e-15);
-  EXPECT_NEAR(radiance[40].b, coefficient * 1.5, 1e-15);
-  EXPECT_EQ(picture.peak(), 1.5);
-  EXPECT_LT(radiance[39].b, radiance[40].b);
-}
-
 TEST(TheReference, AFilmAsideShowsThePictureMovedByWholePixels) {
   Scene scene = one_sphere();
   scene.film = {40, 30};

@@ -1,4 +1,4 @@
-// Several rays a pixel: by each filter without bias, and only where they are needed.
+// Several rays a pixel: an even sky stays even by every filter, and rays are spent only where they are needed.
 #include <fmt/format.h>
 
 #include "base/system/files.hpp"
@@ -14,15 +14,6 @@
 
 namespace lobelia {
 namespace {
-
-constexpr int kFew[] = {2, 3, 4, 8, 16};
-
-/// The formula of a filter of the catalogue, apart from FilterSampler's tables.
-double filter_at(Filter filter, double pixels) {
-  static constexpr auto kValues = map_types<double (*)(double)>(
-      Filters{}, []<class F>() -> double (*)(double) { return &F::value; });
-  return kValues.at(filter.index)(pixels / filter.radius);
-}
 
 /// Every filter with its own radius and with others.
 std::vector<Filter> all_filters() {
@@ -58,112 +49,6 @@ TEST(EveryFilter, LeavesAnEvenSkyExactlyAsItIs) {
                               [](float v) { return v == 1; }))
           << label(filter) << ", " << samples << " samples in rounds";
     }
-}
-
-/// Black and white squares of a random size, turned and moved at random: in pixels of the film.
-struct Squares {
-  static constexpr int kSide = 8;
-  double side, turn, x, y;
-
-  explicit Squares(std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    const auto between = [&](double a, double b) {
-      return std::uniform_real_distribution(a, b)(random);
-    };
-    side = between(0.8, 2.5);
-    turn = between(0, 2 * kPi);
-    x = between(-side, side);
-    y = between(-side, side);
-  }
-
-  /// Seen straight from above, one unit a pixel.
-  Scene scene() const {
-    Scene scene;
-    scene.camera = {{0, 100, 0},
-                    {0, 0, 0},
-                    {-std::sin(turn), 0, -std::cos(turn)},
-                    2 * std::atan(kSide / 200.0) * 180 / kPi};
-    scene.film = {kSide, kSide};
-    scene.materials = {matt(0), matt(1)};
-    scene.planes = {{{x, 0, y}, {0, 1, 0}, 0, 1, side}};
-    scene.lights = {DirectionalLight{{0, -1, 0}, {kPi, kPi, kPi}}};
-    return scene;
-  }
-
-  /// At a point of the film, from its top left.
-  double at(double film_x, double film_y) const {
-    const double a = film_x - kSide / 2.0, b = film_y - kSide / 2.0;
-    const double right = a * std::cos(turn) + b * std::sin(turn);
-    const double down = b * std::cos(turn) - a * std::sin(turn);
-    const double u = std::floor((right - x) / side), v = std::floor((down - y) / side);
-    return std::fmod(std::abs(u + v), 2) == 0 ? 1 : 0;
-  }
-
-  /// The integral of picture and filter over that of the filter, by midpoints.
-  std::vector<double> filtered(Filter filter) const {
-    constexpr int kParts = 240;
-    std::vector<double> offset, weight;
-    double total = 0;
-    for (int i = 0; i < kParts; ++i) {
-      offset.push_back(filter.radius * (2 * (i + 0.5) / kParts - 1));
-      weight.push_back(filter_at(filter, offset.back()));
-      total += weight.back();
-    }
-    std::vector<double> result;
-    for (int py = 0; py < kSide; ++py)
-      for (int px = 0; px < kSide; ++px) {
-        double sum = 0;
-        for (int j = 0; j < kParts; ++j)
-          for (int i = 0; i < kParts; ++i)
-            sum += weight[i] * weight[j] * at(px + 0.5 + offset[i], py + 0.5 + offset[j]);
-        result.push_back(sum / total / total);
-      }
-    return result;
-  }
-};
-
-TEST(EveryFilter, IsWithoutBiasAtAnyNumberOfSamples) {
-  constexpr int kRenders = 128;
-  std::uint64_t picture = 0;
-  for (const Filter filter : some_of(all_filters())) {
-    const Squares squares(++picture);
-    const std::vector<double> expected = squares.filtered(filter);
-    Scene scene = squares.scene();
-    scene.film.filter = filter;
-    for (const int samples : kFew) {
-      scene.sampler.sample_count = samples;
-      std::vector<double> sum(expected.size()), squared(expected.size());
-      for (int k = 0; k < kRenders; ++k) {
-        ++scene.sampler.seed;
-        const Image image = render(scene, {}).image;
-        for (std::size_t i = 0; i < sum.size(); ++i) {
-          const double value = image.values()[3 * i];
-          sum[i] += value;
-          squared[i] += value * value;
-        }
-      }
-      // Each pixel by its own scatter, but by no less than that of independent samples, lest what is rare and was
-      // not drawn seem certain; and all together: pixels are independent.
-      double chi_square = 0, error = 0, variance = 0;
-      for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double mean = sum[i] / kRenders;
-        const double of_mean = std::max(squared[i] / kRenders - mean * mean,
-                                        std::abs(expected[i] * (1 - expected[i])) / samples) /
-                               (kRenders - 1);
-        const double apart = mean - expected[i];
-        // 1e-3: what the quadrature is off by.
-        chi_square += apart * apart / (of_mean + 1e-6);
-        error += apart;
-        variance += of_mean;
-      }
-      const double z = error / std::sqrt(variance);
-      // A sum of squares of k normal numbers has the standard deviation sqrt(2 k).
-      const double deviations =
-          (chi_square - double(sum.size())) / std::sqrt(2 * double(sum.size()));
-      EXPECT_LT(deviations, 5) << label(filter) << ", " << samples << " samples";
-      EXPECT_LT(std::abs(z), 4.5) << label(filter) << ", " << samples << " samples";
-    }
-  }
 }
 
 /// Spheres with highlights, shadows and silhouettes, grey, in which a few samples tell where more are needed.

@@ -113,40 +113,6 @@ TEST(Formula, IsReadBackAtTheLargestSize) {
   }
 }
 
-TEST(Formula, IsTheSameInALanguageWithoutOurSigns) {
-  const FormulaLanguage shader{.number = [](double value) { return fmt::format("{}", value); },
-                               .versine = "v",
-                               .exponent = "e",
-                               .cosine = "(1 - v)",
-                               .angle = "(2*asin(sqrt(v/2)))",
-                               .log = "ln"};
-  for (const std::string& text : random_formulas(1000)) {
-    const Formula formula(text);
-    const std::string there = formula_text(formula.nodes(), shader);
-    EXPECT_EQ(there.find('^'), there.npos);
-    EXPECT_EQ(there.find("--"), there.npos) << there;
-    for (const double s : kPlaces)
-      EXPECT_TRUE(same(formula.evaluate(s, 3.0), Infix::value(there, {{"v", s}, {"e", 3}})))
-          << text << " is " << there;
-  }
-}
-
-TEST(Formula, IsTheSameInAShader) {
-  for (int power = 2; power <= 70; ++power)
-    for (const char* form :
-         {"(1 - n*s/80)^{0}", "0.5*(c^{0} + pow(cos(x/9), {0}))", "exp(-x^{0})"}) {
-      const Formula formula(fmt::format(fmt::runtime(form), power));
-      const std::string body = formula_body(formula);
-      EXPECT_EQ(body.find("pow") == body.npos, power <= kMaxWholePower) << body;
-      for (const double s : kPlaces)
-        EXPECT_NEAR(Infix::value_of_body(body, {{"s", s}, {"n", 3}}), formula.evaluate(s, 3.0),
-                    1e-8)
-            << body;
-    }
-  EXPECT_EQ(Infix::value_of_body(formula_body(Formula("1 + s")), {{"s", 0.5}, {"n", 3}}), 1);
-  EXPECT_EQ(Infix::value_of_body(formula_body(Formula("-s")), {{"s", 0.5}, {"n", 3}}), 0);
-}
-
 std::string complaint_of(const std::string& text) {
   try {
     const Formula formula(text);

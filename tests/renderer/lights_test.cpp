@@ -145,12 +145,6 @@ TEST(SphereLight, FillsItsSolidAngleAtAnySizeAndDistance) {
     }
 }
 
-TEST(SphereLight, IsDarkFromInside) {
-  const OneByOne light(SphereLight{{0, 0, 0}, 1, {1, 1, 1}});
-  EXPECT_EQ(light.sample({0, 0.5, 0}, 0.5, 0.5).pdf, 0);
-  EXPECT_EQ(light.meet({0, 0.5, 0}, {0, 1, 0}).pdf, 0);
-}
-
 EnvmapTable with_image(int width, int height, const std::function<float(int, int)>& value,
                        double floor = 0) {
   auto image = std::make_shared<Image>(width, height);

@@ -55,17 +55,6 @@ TEST(Rounds, TakeNoMoreSamplesThanAllowed) {
   EXPECT_GT(*result.error, 1e-9);
 }
 
-TEST(Rounds, NeverExceedTheSamplesOfTheScene) {
-  RenderOptions options;
-  options.target_error = 1e-9;
-  options.max_samples = 1;
-  EXPECT_FALSE(render(noisy(), options).error);
-  options = {};
-  options.time_limit = 1e4;
-  options.max_samples = 1000;
-  EXPECT_EQ(render(noisy(), options).samples, 16);
-}
-
 TEST(Rounds, GiveThePictureOfTheSameSamplesTakenAtOnce) {
   Scene scene = noisy();
   RenderOptions options;

@@ -240,24 +240,6 @@ TEST(Conversion, SaysThatItIsAtTheEndOfTheRange) {
   }
 }
 
-TEST(Range, HasTheParametersOfItsConversions) {
-  const Request request{model("phong_rdf"), kGgxModel, 0, 1, Measure::kMax};
-  const auto table = convert_range(request);
-  ASSERT_EQ(table.columns.size(), 4u + 5u);
-  EXPECT_EQ(table.columns[0].x.front(), 1);
-  EXPECT_EQ(table.columns[0].x.back(), 1024);
-  const auto at_32 = convert({model("phong_rdf"), kGgxModel, 32, 1, Measure::kMax});
-  for (std::size_t m = 0; m < 4; ++m) {
-    EXPECT_EQ(table.columns[m].name, at_32.best[m].measure);
-    EXPECT_EQ(table.columns[m].y[10], *at_32.best[m].highlight.roughness);
-  }
-  for (std::size_t r = 0; r < 5; ++r) {
-    EXPECT_EQ(table.columns[4 + r].name, at_32.rules[r].name);
-    EXPECT_EQ(table.columns[4 + r].y[10], *at_32.rules[r].highlight->roughness);
-  }
-  EXPECT_EQ(range_chart(table).series.size(), 1u + 5u);
-}
-
 TEST(Range, HasAGapWithoutAnAnswer) {
   const auto text = range_text(convert_range({kGgxModel, model("phong_rdf"), 0, 1, Measure::kMax}));
   EXPECT_THAT(text, testing::HasSubstr(" - "));

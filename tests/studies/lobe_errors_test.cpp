@@ -101,16 +101,6 @@ TEST(LargestError, LiesInItsBracketForOurCosine) {
   EXPECT_GE(by_force(variant, n, 0.9f / 64, 1.1f / 64), 0.5 * all.found);
 }
 
-TEST(LargestError, IsTheRoundingOfItsValueForAWholePowerOfOurCosine) {
-  std::size_t number = 0;
-  for (const double n : {64.0, 1.0, 2.0, 4096.0, 100.0}) {
-    if (is_left_out(number++, 5)) continue;
-    const LobeVariant variant =
-        variant_named(lobe_variants(n), "cosine, squaring in float64, float32 SIMD");
-    EXPECT_LE(largest_error(variant, n, 0, kAll).found, 0x1p-25 + n * 0x1p-52) << n;
-  }
-}
-
 TEST(LargestError, BoundsEveryVariantAtRandomNumbers) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform;
@@ -201,18 +191,6 @@ TEST(LobeVariants, CoverEveryLobeInEveryPrecision) {
   }
 }
 
-TEST(LobeVariants, CountTheirOperations) {
-  const std::vector<LobeVariant> variants = lobe_variants(1000);  // 0b1111101000
-  EXPECT_EQ(variant_named(variants, "cosine, squaring, float32 SIMD").operations.multiply, 9 + 5);
-  EXPECT_EQ(variant_named(variants, "cs16, stable, float32 SIMD").operations.multiply, 1 + 4);
-  EXPECT_EQ(variant_named(variants, "cosine, std::pow, float64").operations.transcendental, 1);
-  EXPECT_EQ(variant_named(variants, "gauss, textbook, float32").operations.transcendental, 2);
-  EXPECT_EQ(variant_named(variants, "cosine, std::pow, float64").operations.add, 1);
-  // c / (n - n c + c), and c = 1 - s
-  EXPECT_EQ(variant_named(variants, "schlick, textbook, float32").operations.add, 3);
-  EXPECT_EQ(variant_named(variants, "schlick, textbook, float32").operations.divide, 1);
-}
-
 TEST(LobeErrors, AreThePapersAndTheIntegralsForCs16) {
   for (const char* name : {"cs16, stable, float64", "cs16, stable, float64 SIMD",
                            "cs16, stable, float32 SIMD", "cs16, textbook, float32"}) {
@@ -233,16 +211,6 @@ TEST(LobeErrors, FallWithTheExponentForTheSphericalGaussian) {
     EXPECT_THAT(e.rms * n, DoubleNear(std::sqrt(0.75 / 4 / 16), 1e-4));
     EXPECT_THAT(e.energy * n, DoubleNear(1, 1e-3));
   }
-}
-
-TEST(LobeErrors, ComeFromTheSlowTailForSchlick) {
-  const LobeErrors e = errors_of(1024, "schlick, stable, float64").all;
-  double largest = 0;
-  for (double s = 0; s < 0.02; s += 1e-6)
-    largest = std::max(largest, (1 - s) / (1 - s + 1024 * s) - std::pow(1 - s, 1024));
-  EXPECT_THAT(e.max, DoubleNear(largest, 1e-5));
-  // With m = n - 1, the integral of (1 - s)/(1 + m s): ((1 + m) log(1 + m) / m - 1) / m.
-  EXPECT_THAT(e.energy, DoubleNear((1024 * std::log(1024) / 1023 - 1) / 1023 * 1025 - 1, 1e-9));
 }
 
 TEST(LobeErrors, IncludeTheDriftOfRounding) {

@@ -8,8 +8,6 @@
 namespace lobelia::paper {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180;
-
 TEST(PaperEnergy, IsForCs16ItsClosedFormToFifteenDigits) {
   // With u = 1 - n s/16: the integral of cs16 s^j ds is (16/n)^(j+1) B(17, j+1).
   const auto moment = [](int j, Real n) {
@@ -36,39 +34,6 @@ TEST(PaperEnergy, LosesEnergyIfCutAsPrinted) {
   // The cut is at s = 2 sin^2(x/4) of the half angle: (1 - n s/16)^17 of the integral of s^0.
   const Real lost = std::pow(1 - 64 * versine(printed_theta_cr(1024) / 2), Real(17));
   EXPECT_NEAR(double(1 - cut / whole), double(lost), 0.01 * double(lost));
-}
-
-/// The same integral over the hemisphere of the other direction itself, by midpoints.
-double albedo_by_brute_force(const Row& row, Real n, double coefficient, double theta, Held held) {
-  constexpr int kElevations = 500, kAzimuths = 500;
-  const double step = std::numbers::pi / 2 / kElevations, turn = std::numbers::pi / kAzimuths;
-  double sum = 0;
-  for (int i = 0; i < kElevations; ++i)
-    for (int j = 0; j < kAzimuths; ++j) {
-      const double other = (i + 0.5) * step, azimuth = (j + 0.5) * turn;
-      const double x = std::sin(other) * std::cos(azimuth), y = std::sin(other) * std::sin(azimuth),
-                   z = std::cos(other), held_x = std::sin(theta), held_z = std::cos(theta);
-      const double cosine = row.half_angle || row.distribution
-                                ? (z + held_z) / std::hypot(x + held_x, y, z + held_z)
-                                : z * held_z - x * held_x;
-      if (cosine <= 0) continue;
-      const bool weighted = !row.is_rdf() || held == Held::kBeam;
-      sum += std::pow(cosine, double(n)) * (weighted ? z : 1) * std::sin(other);
-    }
-  sum *= 2 * step * turn * coefficient;
-  if (row.distribution) sum /= 4;
-  return row.is_rdf() && held == Held::kBeam ? sum / std::cos(theta) : sum;
-}
-
-TEST(PaperAlbedo, IsTheSumOverAllDirections) {
-  for (const Row& row : kRows)
-    for (const Held held : {Held::kBeam, Held::kEye})
-      for (const double degrees : {0.0, 30.0, 75.0, 88.0}) {
-        const double coefficient = double(row.cosine_column(16));
-        const double ours = albedo(row, Lobe::kCosine, 16, coefficient, degrees * kRadian, held);
-        const double sum = albedo_by_brute_force(row, 16, coefficient, degrees * kRadian, held);
-        EXPECT_NEAR(ours / sum, 1, 1e-4) << row.title << " at " << degrees;  // measured 3e-5
-      }
 }
 
 TEST(PaperSearch, FindsAMaximumBetweenTwoPointsAndAtAnEnd) {

@@ -101,23 +101,6 @@ TEST(HardCases, SpheresOfAnySizeAndDistanceAreRightToThePixel) {
   EXPECT_GT(expect_within(sphere_rows), some_lobes().size() * 600);
 }
 
-TEST(HardCases, SphereScenesShowTheHighlightWhereTheyAreMadeFor) {
-  // A close picture that missed its highlight would be right without being a test.
-  int close = 0;
-  const Highlight highlight{*find_model("modified_phong"), *find_lobe("cosine"),
-                            Normalisation::kExact, 1e6};
-  for (const HardScene& hard : hard_scenes())
-    for (const Scene& scene : close_to_highlight(hard.scene, 1e6)) {
-      ++close;
-      const truth::Picture picture(scene);
-      double brightest = 0;
-      for (const Rgb c : picture.highlights(highlight)) brightest = std::max(brightest, c.g);
-      const double peak = picture.peak() * truth::coefficient(highlight.model, highlight.lobe, 1e6);
-      EXPECT_GT(brightest, 0.3 * peak) << hard.name;
-    }
-  EXPECT_GE(close, 15);
-}
-
 class RandomVectorsOf : public testing::TestWithParam<double> {};
 
 TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecision) {
@@ -141,17 +124,6 @@ TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Exponents, RandomVectorsOf, testing::ValuesIn(kExponents));
-
-TEST(TheNaiveFormula, IsThatOfItsOwnModelForEveryLobe) {
-  for (const ModelInfo& model : models())
-    for (const char* lobe : {"cosine", "cs16", "gauss"}) {
-      const Highlight highlight{*find_model(model.name), *find_lobe(lobe), {}, 20};
-      EXPECT_NEAR(
-          naive::coefficient(highlight) / truth::coefficient(highlight.model, highlight.lobe, 20),
-          1, 1e-4)
-          << model.name << ", " << lobe;
-    }
-}
 
 TEST(TheNaiveFormula, MissesDistantSpheres) {
   int wrong = 0, infinite = 0;

@@ -108,31 +108,6 @@ TEST_F(OddEngine, IsAskedForItsVersionAgainIfItWasKilled) {
   EXPECT_EQ(asked.rendered, pictures()) << asked.output;
 }
 
-TEST_F(OddEngine, IsTriedNoMoreOftenThanWasAllowed) {
-  undisturbed();
-  fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");
-  EXPECT_EQ(run({"--attempts", "2"}).exit_code, 4);
-  EXPECT_EQ(failure_of("n16").value("attempts", 0), 2);
-  expect_mended(run(), 1);
-}
-
-TEST_F(OddEngine, IsMissingWhileItIsAwayAndThenGoesOn) {
-  undisturbed();
-  fake_povray();
-  // Cells come in the order n8, n32, n16, n64: the program is there for the version alone.
-  const fs::path program = root() / "povray";
-  write_file(program,
-             "#!/bin/sh\ncase \"$*\" in *version*) echo 'POV-Ray 3.7.0.10' >&2;; esac\nmv '" +
-                 program.string() + "' '" + program.string() + "-gone'\n");
-  fs::permissions(program, fs::perms::owner_all);
-  const FarmRun first = run();
-  EXPECT_EQ(first.exit_code, 4) << first.output;
-  EXPECT_EQ(failure_of("n16").value("failure", ""), "engine missing");
-  EXPECT_EQ(failure_of("n16").value("attempts", 0), 1) << "again is of no use";
-  fake_povray();
-  expect_mended(run(), 4);
-}
-
 TEST_F(OddEngine, EndsAFarmAtItsFirstFailureIfThatIsWanted) {
   undisturbed();
   fake_povray("[ $cell != n8 ] || exit 3");
@@ -305,34 +280,6 @@ TEST_F(OddEngine, LeavesTheRestToAnotherNodeIfItAlwaysFailsOnOne) {
   for (const JobIndex job : jobs)
     if (results.failure(work.graph[job].key)) ++kept;
   EXPECT_EQ(kept, first.failed) << "what was not tried has not failed";
-}
-
-TEST_F(OddEngine, GetsOnlyListedVariablesOfOurEnvironment) {
-  grid({"8"});
-  fake_povray("echo begin; env; echo end");
-  const FarmRun done = run_command(
-      command(), {"CYCLES_CPU_NO_AVX2=1", "OCIO=/no/such", "GLIBC_TUNABLES=glibc.malloc.check=0",
-                  "MALLOC_ARENA_MAX=1", "OMP_NUM_THREADS=1", "PYTHONPATH=/no/such",
-                  "LD_LIBRARY_PATH=/no/such", "LANG=de_DE", "TZ=Asia/Tokyo"});
-  ASSERT_EQ(done.exit_code, 0) << done.output;
-  std::map<std::string, std::string> seen;
-  std::istringstream log(read_file(out() / "cells" / "n8" / "povray.log", 1 << 20));
-  bool inside = false;
-  for (std::string line; std::getline(log, line);) {
-    if (line == "end") break;
-    if (inside) seen[line.substr(0, line.find('='))] = line.substr(line.find('=') + 1);
-    if (line == "begin") inside = true;
-  }
-  for (const char* own : {"PWD", "OLDPWD", "SHLVL", "_"}) seen.erase(own);  // the shell's
-  std::vector<std::string> names;
-  for (const auto& [name, value] : seen) names.push_back(name);
-  EXPECT_THAT(names,
-              testing::ElementsAre("HOME", "LC_ALL", "LD_LIBRARY_PATH", "PATH", "POVINI", "TEMP",
-                                   "TMP", "TMPDIR", "TZ", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"));
-  EXPECT_EQ(seen["LD_LIBRARY_PATH"], "/no/such");
-  EXPECT_EQ(seen["TZ"], "UTC");
-  EXPECT_EQ(seen["LC_ALL"], "C.UTF-8");
-  EXPECT_NE(read_json(out() / "cells" / "n8" / "povray.json").at("contained"), "none");
 }
 
 }  // namespace

@@ -13,10 +13,6 @@ class DamagedCache : public FailingFarm {
     fake_povray();
     EXPECT_EQ(run().exit_code, 0);
   }
-  static void replace(const fs::path& file, const std::string& text) {
-    fs::remove(file);
-    std::ofstream(file) << text;
-  }
   /// In place, so that the farm's directory shows it too.
   static void flip_a_bit(const fs::path& file) {
     fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
@@ -95,24 +91,6 @@ TEST_F(DamagedCache, TakesNothingElseForAResult) {
     fs::create_directory(result);
     fs::create_symlink("/dev/zero", result / "result.json");
   });
-}
-
-TEST_F(DamagedCache, DoesNotMatterToCellsThatAreDamagedToo) {
-  for (
-      const char* text :
-      {"", "null", "[]", "{\"kind\": \"cell\"}", "{\"schemaVersion\": 1, \"kind\": \"cell\"}",
-       "{\"schemaVersion\": 1, \"kind\": \"cell\", \"status\": 1, \"problems\": 3, \"results\": []}"}) {
-    SCOPED_TRACE(text);
-    replace(out() / "cells" / "n16" / "cell.json", text);
-    expect_mended(run(), 0);
-  }
-  for (const char* name : {"lobelia.exr", "povray.png", "profile.json", "scene.xml"}) {
-    replace(out() / "cells" / "n8" / name, "x");
-    expect_mended(run(), 0);
-    fs::remove(out() / "cells" / "n8" / name);
-    fs::create_symlink("/nonexistent", out() / "cells" / "n8" / name);
-    expect_mended(run(), 0);
-  }
 }
 
 TEST_F(DamagedCache, IsNotUsedIfItIsNoneOrHasAnotherLayout) {

@@ -52,51 +52,6 @@ TEST_F(KilledFarm, LosesOnlyUnfinishedResultsAtAnyWrite) {
   EXPECT_GE(killed, std::size_t(kMoments) - 4) << "the last calls may not come in every run";
 }
 
-TEST_F(KilledFarm, EndsAfterManyKillsAsIfLeftAlone) {
-  undisturbed();
-  std::mt19937 random(1);
-  for (int i = 0; i < 15; ++i) {
-    RunningFarm farm(command(), root());
-    std::this_thread::sleep_for(std::chrono::milliseconds(40 + random() % 100));
-    farm.signal(SIGKILL);
-    farm.wait();
-  }
-  expect_mended(run());
-}
-
-TEST_F(KilledFarm, GoesOnAfterAnInterruptionWithThousandsOfCells) {
-  std::vector<std::string> exponents;
-  constexpr std::size_t kCells = 2000;
-  for (std::size_t i = 1; i <= kCells; ++i) exponents.push_back(std::to_string(i));
-  grid(exponents, "", 8);
-  fs::remove(root() / "povray");
-  std::size_t before = 0;
-  for (const int number : {SIGINT, SIGKILL, SIGTERM}) {
-    RunningFarm farm(command({"--filter", "*render"}), root());
-    // Counting them all takes longer than making some: those of a few shelves tell.
-    const auto some = [&] {
-      std::size_t count = 0;
-      for (const char* shelf : {"00", "11", "22", "33"})
-        if (const fs::path there = cache() / "results" / shelf; fs::exists(there))
-          count += std::size_t(std::distance(fs::directory_iterator(there), {}));
-      return count;
-    };
-    while (some() < before + 6 && !farm.has_ended())
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    before = some();
-    farm.signal(number);
-    EXPECT_EQ(farm.wait(), 128 + number) << farm.output();
-  }
-  const std::size_t there = cached_pictures();
-  EXPECT_GT(there, 500u);
-  EXPECT_LT(there, kCells);
-  const FarmRun last = run({"--filter", "*render"});
-  EXPECT_EQ(last.exit_code, 0) << last.output;
-  EXPECT_EQ(last.rendered, kCells - there);
-  EXPECT_EQ(last.kept, there);
-  expect_nothing_half_written();
-}
-
 TEST_F(KilledFarm, KeepsResultsThoughTheClockJumpsBack) {
   fs::path library;
   for (const auto& entry : fs::directory_iterator("/usr/lib"))

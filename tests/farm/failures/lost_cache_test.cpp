@@ -53,36 +53,6 @@ TEST_F(LostCache, IsMadeAgainWhateverOfItIsLostAtRest) {
   without({""});
 }
 
-TEST_F(LostCache, HarmsNeitherTheRunNorTheNextOne) {
-  const auto losing = [&](const std::string& what, const auto& lose) {
-    SCOPED_TRACE(what);
-    fs::remove_all(out());
-    fs::remove_all(cache());
-    fake_povray("sleep 0.2");
-    RunningFarm farm(command(), root());
-    while (cached_pictures() < 2 && !farm.has_ended()) ::usleep(5000);
-    std::error_code ignored;
-    lose(ignored);
-    const int code = farm.wait();
-    EXPECT_THAT(code, AnyOf(0, 4)) << farm.output();
-    EXPECT_THAT(farm.output(), testing::Not(HasSubstr("internal")));
-    if (code == 0) {
-      EXPECT_THAT(farm.output(), HasSubstr("4 pass;"));
-    }
-    fs::remove_all(root() / "moved");
-    fake_povray();
-    expect_mended(run());
-  };
-  losing("removed", [&](auto& ignored) { fs::remove_all(cache(), ignored); });
-  losing("renamed", [&](auto& ignored) { fs::rename(cache(), root() / "moved", ignored); });
-  losing("results", [&](auto& ignored) { fs::remove_all(cache() / "results", ignored); });
-  losing("making", [&](auto& ignored) { fs::remove_all(cache() / "making", ignored); });
-  losing("locks and marker", [&](auto& ignored) {
-    for (const char* name : {"locks", "lobelia-cache", "failures"})
-      fs::remove_all(cache() / name, ignored);
-  });
-}
-
 TEST_F(LostCache, IsToldByStatusVerifyAndGcInOneLineEach) {
   fs::remove_all(cache());
   const FarmRun verify = run_command({"farm", "verify", "out", "-q"});

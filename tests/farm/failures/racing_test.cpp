@@ -47,20 +47,6 @@ TEST_F(RacingFarms, MakeEachResultOnce) {
   }
 }
 
-TEST_F(RacingFarms, GoOnWhenOneOfThemIsKilled) {
-  fake_povray("sleep 0.3");
-  RunningFarm a(command_in("other"), root()), b(command(), root());
-  wait_for_pictures(2, a);
-  a.signal(SIGKILL);
-  a.wait();
-  EXPECT_EQ(b.wait(), 0) << b.output();
-  EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());
-  // It may have left an unfinished farm.json, which the next farm of its directory removes.
-  RunningFarm again(command_in("other"), root());
-  EXPECT_EQ(again.wait(), 0) << again.output();
-  expect_mended(run(), 0);
-}
-
 TEST_F(RacingFarms, AreNotDisturbedByStatusOrGc) {
   fake_povray(waits());
   RunningFarm farm(command(), root());

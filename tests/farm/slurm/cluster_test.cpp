@@ -8,8 +8,6 @@
 namespace lobelia {
 namespace {
 
-using testing::SizeIs;
-
 class SlurmCluster : public testing::Test {
  protected:
   void SetUp() override {
@@ -38,19 +36,6 @@ TEST_F(SlurmCluster, IsReportedAndNotWaitedForWhenDrained) {
   const auto outcome = run_on_slurm(toy.work(), options);  // what it left in the queue
   EXPECT_TRUE(outcome.attached);
   EXPECT_EQ(toy.results(), toy.wanted());
-}
-
-TEST_F(SlurmCluster, GivesNoMoreToANodeThatHandsItsWorkBack) {
-  ToyWork toy(directory.path(), 6, 0.1);
-  toy.add({"picky", 0, 0.1, "toy"});
-  options.rounds = 9;
-  const auto outcome = run_on_slurm(toy.work(), options);  // only n3 does it
-  EXPECT_THAT(outcome.missing, IsEmpty());
-  EXPECT_LE(outcome.rounds, 3);
-  EXPECT_EQ(toy.results(), toy.wanted());
-  for (const char* number : {"n1", "n2"})
-    if (said.find(std::string(number) + " (picky)") != said.npos) return;
-  EXPECT_EQ(outcome.rounds, 1) << said;
 }
 
 TEST_F(SlurmCluster, SaysItselfThatNoNodeIsLeft) {

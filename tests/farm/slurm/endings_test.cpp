@@ -65,15 +65,6 @@ TEST_F(FakeSlurmEndings, GetNoMoreTimeThanThePartitionHas) {
                                     "--chunk-seconds.\n")));
 }
 
-TEST_F(FakeSlurmEndings, NameTheOptionAfterATimeLimitThatNobodyAskedFor) {
-  elements_end("0|TIMEOUT|TimeLimit|n1", "never");
-  run_on_slurm(toy.work(), options);
-  EXPECT_THAT(said,
-              AllOf(HasSubstr("1 element: time limit reached; give elements more with --time"),
-                    HasSubstr("1 element of the last round: time limit reached; give")));
-  for (const std::string& array : arrays()) EXPECT_THAT(array, Not(HasSubstr("--time")));
-}
-
 TEST_F(FakeSlurmEndings, GetTwiceTheMemoryUpToThatOfANode) {
   options.slurm.memory = "3G";
   elements_end("0|OUT_OF_MEMORY|OutOfMemory|n1", "--mem=8000M");

@@ -112,30 +112,6 @@ TEST_F(FarmOnCluster, EndsWithItsGalleryThoughNobodyWaits) {
   expect_local_results(detached.output);
 }
 
-TEST_F(FarmOnCluster, StopsAtCtrlCAndMakesTheRestAfterwards) {
-  RunningFarm farm(on_slurm(), root());
-  ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
-  farm.signal(SIGINT);
-  EXPECT_EQ(farm.wait(), 130) << farm.output();
-  EXPECT_THAT(cluster_.slurm({"squeue", "-h"}), IsEmpty());
-  const std::size_t done = cached_pictures();
-  ASSERT_LT(done, kFarmPictures) << farm.output();
-  const FarmRun second = run_command(on_slurm());
-  EXPECT_EQ(second.exit_code, 0) << second.output;
-  EXPECT_EQ(second.rendered, kFarmPictures - done);
-  expect_local_results(second.output);
-}
-
-TEST_F(FarmOnCluster, AJobThatFailsCostsOnlyItself) {
-  fake_povray("case $cell in n20) exit 3;; esac");
-  const FarmRun farm = run_command(on_slurm());
-  EXPECT_EQ(farm.exit_code, 4) << farm.output;
-  EXPECT_THAT(farm.output, HasSubstr("n20: povray"));
-  EXPECT_EQ(cached_pictures(), kFarmPictures - 1);
-  EXPECT_EQ(read_json(out() / "cells" / "n20" / "cell.json").at("status"), "failed");
-  EXPECT_EQ(read_json(out() / "cells" / "n18" / "cell.json").at("status"), "pass");
-}
-
 /// A program of the user's own is an engine there, too: its description is in the chunks, its script on the shared disk.
 class FarmOnClusterOfMyEngine : public FarmOnCluster {
  protected:

@@ -42,13 +42,6 @@ while read -r name seconds; do
   case $name in
     # Too long in its first round, unless somebody ends it.
     slow*) [ "$(grep -c "^$name\$" "$results/../started")" -gt 1 ] || sleep 3600;;
-    # A node that cannot do it.
-    picky*) if [ "$SLURMD_NODENAME" = n1 ] || [ "$SLURMD_NODENAME" = n2 ]; then
-        mkdir -p "$3/reports"
-        printf '{"schemaVersion": 1, "kind": "farm-chunk-report", "node": "%s", "left": [{"engine": "toy", "why": "picky"}]}' \
-          "$SLURMD_NODENAME" > "$3/reports/$4.json"
-        continue
-      fi;;
   esac
   sleep "$seconds"
   part=$(mktemp "$results/.part.XXXXXX")

@@ -105,36 +105,6 @@ TEST(LobeByItsFormula, DrawsSamplesAsItsDensitySays) {
     }
 }
 
-TEST(LobeByItsFormula, DrawsThePicturesOfTheCatalogues) {
-  for (const char* name : {"oblique_45", "two_spheres"})
-    for (const LobeId& lobe : lobes())
-      for (const auto precision : {std::optional<Precision>(), std::optional(Precision::kFloat32),
-                                   std::optional(Precision::kMixed)}) {
-        Scene scene = canonical_scene(name);
-        scene.film = {33, 21};
-        for (Material& m : scene.materials) m.highlight.lobe = lobe;
-        RenderOptions options;
-        options.precision = precision.value_or(Precision::kFloat64);
-        const Image expected = render(scene, options).image;
-        for (Material& m : scene.materials) m.highlight.lobe = as_formula(lobe);
-        options.precision = precision;
-        for (const bool fused : {true, false}) {
-          options.allow_fused = fused;
-          const RenderResult result = render(scene, options);
-          if (!precision) {
-            EXPECT_THAT(result.plan.precision_reason, testing::StartsWith("float64 for"));
-          }
-          EXPECT_THAT(result.plan.kernel, testing::HasSubstr("slow: a lobe is a formula"));
-          const float peak = *std::max_element(expected.values().begin(), expected.values().end());
-          float worst = 0;
-          for (std::size_t i = 0; i < expected.values().size(); ++i)
-            worst = std::max(worst, std::abs(result.image.values()[i] - expected.values()[i]));
-          // float32 in picture and lobe; cs1024 and cos^n multiply a rounding of s by the exponent.
-          EXPECT_LE(worst / peak, precision ? 2e-4 : 2e-7) << name << " " << info(lobe).name;
-        }
-      }
-}
-
 TEST(LobeByItsFormula, CountsTheOperationsOfItsTree) {
   EXPECT_EQ(operations(formula_lobe("max(0, 1 - n*s/16)^16")), (OperationCount{1, 1, 1, 0, 1, 1}));
   EXPECT_EQ(operations(formula_lobe("exp(-n*x^2/2)/sqrt(c)")), (OperationCount{3, 1, 2, 2, 3, 1}));
