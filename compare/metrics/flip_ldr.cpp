@@ -8,7 +8,7 @@
 //               edges or points of the luminance. mean and max over all pixels.
 // Input:        DisplayLight (linear, clipped). The tool takes sRGB and decodes it first.
 // Agrees with:  a double loop in float64 over each pixel's windows, the paper's formulas as they stand: to 3e-7 in
-//               each pixel, also of pictures that hardly differ (flip_accuracy_test.cpp). NVIDIA's tool, version 1.6, its
+//               each pixel, also of pictures that hardly differ (flip_test.cpp). NVIDIA's tool, version 1.6, its
 //               mean taken in double: to 1e-8 where there are features, to 1e-4 on flat pictures.
 // Computed:     on SIMD registers. Processors without fused multiply-add round twice: 2e-7. The number of threads changes
 //               nothing.

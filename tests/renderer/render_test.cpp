@@ -4,6 +4,7 @@
 
 #include "base/system/threads.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/scene/scene.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
 #include "tests/test.hpp"
@@ -99,6 +100,168 @@ TEST(Render, ReportsProgressUpToTheEnd) {
   };
   render(canonical("head_on"), options);
   EXPECT_EQ(largest, 1);
+}
+
+// Renders that stop: at an error, at a time, at a number of samples.
+
+Scene noisy() {
+  Scene scene;
+  scene.camera = {{0, 2, 6}, {0, 0.8, 0}, {0, 1, 0}, 40};
+  scene.film = {64, 48};
+  scene.sampler.sample_count = 16;
+  scene.lights = {SphereLight{{2, 4, 2}, 0.7, {20, 20, 20}}};
+  scene.materials = {matt(0.5)};
+  scene.spheres = {{{0, 1, 0}, 1, 0}};
+  scene.planes = {{{0, 0, 0}, {0, 1, 0}}};
+  return scene;
+}
+
+double rms_difference(const Image& a, const Image& b) {
+  double difference = 0, value = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    difference += std::pow(double(a.values()[i]) - b.values()[i], 2);
+    value += std::pow(double(b.values()[i]), 2);
+  }
+  return std::sqrt(difference / value);
+}
+
+TEST(Rounds, StopAtTheRequestedError) {
+  Scene scene = noisy();
+  scene.sampler.sample_count = 4096;
+  const Image truth = render(scene, {}).image;
+  scene.sampler.seed = 5;
+  int last = 0;
+  for (const double target : {0.1, 0.03, 0.01}) {
+    RenderOptions options;
+    options.target_error = target;
+    const RenderResult result = render(scene, options);
+    EXPECT_LE(*result.error, target);
+    EXPECT_LE(rms_difference(result.image, truth), 1.1 * target) << target;
+    EXPECT_GE(result.samples, last);
+    EXPECT_NE(result.stop_reason.find("error"), std::string::npos) << result.stop_reason;
+    last = result.samples;
+  }
+  EXPECT_GT(last, 8);
+}
+
+TEST(Rounds, TakeNoMoreSamplesThanAllowed) {
+  RenderOptions options;
+  options.target_error = 1e-9;
+  options.max_samples = 24;
+  const RenderResult result = render(noisy(), options);
+  EXPECT_EQ(result.samples, 24);
+  EXPECT_EQ(result.work.camera_rays, 64u * 48 * 24);
+  EXPECT_GT(*result.error, 1e-9);
+}
+
+TEST(Rounds, GiveThePictureOfTheSameSamplesTakenAtOnce) {
+  Scene scene = noisy();
+  RenderOptions options;
+  options.target_error = 1e-9;
+  options.max_samples = 16;
+  const Image rounds = render(scene, options).image, at_once = render(scene, {}).image;
+  for (std::size_t i = 0; i < rounds.values().size(); ++i)
+    EXPECT_NEAR(rounds.values()[i], at_once.values()[i], 1e-6 * (1 + at_once.values()[i]));
+}
+
+TEST(Rounds, StopWhenTheTimeIsUp) {
+  Scene scene = noisy();
+  scene.sampler.sample_count = 65536;
+  RenderOptions options;
+  options.time_limit = 0.2;
+  const RenderResult result = render(scene, options);
+  EXPECT_GE(result.samples, 1);
+  EXPECT_LT(result.samples, 65536);
+  EXPECT_NE(result.stop_reason.find("time limit"), std::string::npos) << result.stop_reason;
+}
+
+TEST(Rounds, AreOneForAPictureWithNothingRandom) {
+  Scene scene = noisy();
+  scene.sampler.sample_count = 1;
+  scene.lights = {DirectionalLight{normalize({-1, -2, -1}), {1, 1, 1}}};
+  RenderOptions options;
+  options.target_error = 1e-6;
+  const RenderResult result = render(scene, options);
+  EXPECT_EQ(result.samples, 1);
+  EXPECT_FALSE(result.error);
+}
+
+Scene plain() {
+  Scene scene = one_sphere(shiny(16));
+  scene.camera.fov_degrees = 28;
+  scene.film = {24, 24};
+  scene.lights = {DirectionalLight{{0, 0, -1}, {1, 1, 1}}};
+  return scene;
+}
+
+float brightest(const Scene& scene) {
+  const Image image = render(scene, {}).image;
+  return *std::max_element(image.values().begin(), image.values().end());
+}
+
+TEST(Remarks, AreNoneForAnOrdinaryScene) {
+  Scene scene = plain();
+  EXPECT_THAT(remarks(scene), IsEmpty());
+  EXPECT_GT(brightest(scene), 1);
+  // The camera looks aside, but with the sphere's rim in a corner.
+  scene.camera.target = {1.9, 1.9, 0};
+  EXPECT_THAT(remarks(scene), IsEmpty());
+}
+
+TEST(Remarks, SayWhyAPictureIsBlackAndItIs) {
+  constexpr std::pair<void (*)(Scene&), const char*> kCases[] = {
+      {[](Scene& s) { s.lights.clear(); }, "no light: the picture is black"},
+      {[](Scene& s) {
+         s.lights = {PointLight{{0, 0, 3}, {0, 0, 0}}};
+       },
+       "no light shines"},
+      {[](Scene& s) {
+         s.lights = {PointLight{{0, 0.2, 0}, {1, 1, 1}}};
+       },
+       "light 0 is inside sphere 0"},
+      {[](Scene& s) { s.spheres.clear(); }, "shows nothing"},
+      {[](Scene& s) {
+         s.camera.origin = {0, 0, 0.5};
+       },
+       "inside sphere 0"},
+      {[](Scene& s) {
+         s.camera.target = {0, 0, 10};
+       },
+       "looks away"},
+  };
+  for (const auto& [change, remark] : kCases) {
+    Scene scene = plain();
+    change(scene);
+    EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr(remark)));
+    EXPECT_EQ(brightest(scene), 0) << remark;
+  }
+}
+
+TEST(Remarks, ExplainASceneWithLightsAlone) {
+  Scene scene = plain();
+  scene.spheres.clear();
+  scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};
+  EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("its lights alone")));
+  EXPECT_EQ(brightest(scene), 0.5f);
+}
+
+TEST(Remarks, ExplainACameraOnASphere) {
+  Scene scene = plain();
+  for (int i = 0; i < 200; ++i) {
+    const double up = std::sin(0.01 * i), across = std::cos(0.01 * i);
+    scene.camera.origin = {across * std::sin(i), up, across * std::cos(i)};
+    scene.camera.target = {0.1, -0.2, 0.3};
+    EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("on sphere 0"))) << i;
+    EXPECT_EQ(brightest(scene), 0) << i;
+  }
+}
+
+TEST(Remarks, AreFewWhateverTheNumberOfSpheres) {
+  Scene scene = plain();
+  scene.spheres.resize(100000, scene.spheres[0]);
+  scene.camera.origin = {0, 0, 0};
+  scene.camera.target = {0, 0, -1};
+  EXPECT_LE(remarks(scene).size(), 3u);
 }
 
 }  // namespace
