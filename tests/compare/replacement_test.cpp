@@ -1,6 +1,7 @@
 // Replacing files of a folder: all or none, whatever fails or ends the process, and back again.
 #include "compare/accept/replacement.hpp"
 
+#include "compare/accept/replacement_store.hpp"
 #include "tests/compare/replacement_fixture.hpp"
 
 namespace lobelia {
@@ -189,6 +190,211 @@ TEST_F(ReplacementTest, AFileThatChangesWhileItIsReadHasNoHash) {
   EXPECT_EQ(steady.digest(), sha256("new a"));
   EXPECT_FALSE(changed.digest().has_value());
   EXPECT_FALSE(gone.digest().has_value());
+}
+
+// A replacement trusts neither the files of a killed process, nor their directory, nor its journal, without a check.
+
+using namespace fixtures;
+
+class ReplacementTrust : public Replacements {};
+
+TEST_F(ReplacementTrust, AFileThatIsDamagedAfterAKillGetsNoPlace) {
+  interrupt({three()[0], three()[2], three()[1]});
+  write_file(ours("now/new-2"), "garbage");
+  const ReplacementOutcome done = finish_replacement(refs());
+  EXPECT_EQ(done.way, ReplacementOutcome::Way::kPutBack);
+  EXPECT_THAT(done.problems, ElementsAre(HasSubstr("now/new-2: is not what was accepted")));
+  EXPECT_EQ(done.files.size(), 3u);
+  EXPECT_EQ(texts(), kOld);
+  expect_all_or_none();
+}
+
+TEST_F(ReplacementTrust, AReplacementIsPutBackIfAFileWasChangedAfterAKill) {
+  for (const auto& [name, whose] :
+       {std::pair("a.exr", "it had its new file"), {"sub/b.exr", "it had not"}}) {
+    SCOPED_TRACE(whose);
+    begin_anew();
+    interrupt({three()[0], three()[2], three()[1]});
+    put(std::string("refs/") + name, "theirs");
+    const ReplacementOutcome done = finish_replacement(refs());
+    EXPECT_EQ(done.way, ReplacementOutcome::Way::kPutBack);
+    EXPECT_THAT(done.problems,
+                ElementsAre(HasSubstr(name + std::string(": was changed since, and stays"))));
+    Texts expected = kOld;
+    expected[name] = "theirs";
+    EXPECT_EQ(texts(), expected);
+    EXPECT_FALSE(fs::exists(ours("now")) || fs::exists(ours("back")));
+  }
+}
+
+TEST_F(ReplacementTrust, AnOldFileThatIsDamagedIsNotPutBack) {
+  interrupt({three()[0], three()[1]});
+  fs::rename(ours("now"), ours("back"));
+  write_file(ours("back/old-0"), "garbage");
+  const ReplacementOutcome done = finish_replacement(refs());
+  EXPECT_THAT(done.problems,
+              ElementsAre(HasSubstr("a.exr: what was there before is damaged or gone")));
+  EXPECT_EQ(texts(), (Texts{{"a.exr", "new a"}, {"sub/b.exr", "old b"}}));
+}
+
+TEST_F(ReplacementTrust, ADirectoryThatSomebodyMakesInAPlaceStays) {
+  for (const bool without_links : {false, true}) {
+    bool ended = false;
+    for (int call = 1; !ended && call < kMostCalls && !HasFailure(); ++call) {
+      SCOPED_TRACE(fmt::format("killed at call {}, links: {}", call, !without_links));
+      begin_anew();
+      faults::no_hard_links = without_links;
+      ended = ends(call, [&] { replace(three()); });
+      if (ended) break;
+      fs::remove(refs() / "sub/b.exr");
+      put("refs/sub/b.exr/notes.txt", "theirs");
+      ASSERT_EQ(thrown_by([&] { finish_replacement(refs()); }).what(), std::string());
+      EXPECT_EQ(texts().at("sub/b.exr/notes.txt"), "theirs");
+      replace({replacement("a", "a.exr", texts().at("a.exr"))});
+      replace({replacement("a", "a.exr", "new a")});
+      EXPECT_EQ(texts().at("sub/b.exr/notes.txt"), "theirs");
+    }
+  }
+}
+
+TEST_F(ReplacementTrust, OldFilesArePrivateWhereOneOfTheirFoldersIs) {
+  fs::permissions(refs(), fs::perms(0755));
+  const auto mode_of_last = [&](unsigned sub) {
+    begin_anew();
+    fs::permissions(refs() / "sub", fs::perms(sub));
+    replace(three());
+    EXPECT_EQ(mode("sub/b.exr"), 0644u) << "files keep their own";
+    return mode(std::string(kReplacedName) + "/last");
+  };
+  EXPECT_EQ(mode_of_last(0755), 0755u);
+  EXPECT_EQ(mode_of_last(0700), 0700u);
+  EXPECT_EQ(mode_of_last(0750), 0750u);
+  EXPECT_EQ(mode_of_last(0711), 0700u) << "who may not list it does not know the names in it";
+}
+
+TEST_F(ReplacementTrust, OthersMayNotChangeTheDirectoryWhereAllMayMakeEntries) {
+  fs::permissions(refs(), fs::perms(01777));
+  replace(three());
+  EXPECT_EQ(mode(kReplacedName), 0755u);
+  EXPECT_EQ(mode(std::string(kReplacedName) + "/last"), 0755u);
+  EXPECT_EQ(mode(std::string(kReplacedName) + "/lock"), 0644u);
+}
+
+TEST_F(ReplacementTrust, AnotherGroupsFolderShowsNobodyMore) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
+  constexpr gid_t kSomeGroup = 12345;
+  fs::permissions(refs() / "sub", fs::perms(0750));
+  ASSERT_EQ(::lchown((refs() / "sub").c_str(), uid_t(-1), kSomeGroup), 0);
+  replace(three());
+  EXPECT_EQ(mode(std::string(kReplacedName) + "/last"), 0700u);
+}
+
+TEST_F(ReplacementTrust, ALockThatCannotBeOpenedStopsIt) {
+  replace({replacement("a", "a.exr", "old a")});
+  fs::remove(ours("lock"));
+  fs::create_directory(ours("lock"));
+  const Error error = error_of_replacing({replacement("b", "sub/b.exr", "old b")});
+  EXPECT_EQ(error.code(), ExitCode::kOutput);
+  EXPECT_THAT(error.what(), HasSubstr("lock cannot be opened"));
+  EXPECT_EQ(thrown_by([&] { undo_replacement(refs()); }).code(), ExitCode::kOutput);
+  EXPECT_EQ(texts(), (Texts{{"a.exr", "new a"}, {"sub/b.exr", "old b"}}));
+}
+
+TEST_F(ReplacementTrust, AnyoneWhoMayChangeTheFolderMayTakeItsLock) {
+  fs::permissions(refs(), fs::perms(02775));
+  replace(three());
+  EXPECT_EQ(mode(std::string(kReplacedName) + "/lock"), 0664u);
+}
+
+TEST_F(ReplacementTrust, ADirectoryWithoutOurMarkIsLeftAlone) {
+  for (const char* mark : {"", "*\n"}) {
+    begin_anew();
+    for (const char* stage : {"next", "last", "now"})
+      put(fmt::format("refs/{}/{}/thesis.txt", kReplacedName, stage), "precious");
+    if (*mark) write_file(ours(".gitignore"), mark);
+    const Error error = error_of_replacing(three());
+    EXPECT_EQ(error.code(), ExitCode::kOutput);
+    EXPECT_THAT(error.what(), HasSubstr("is not that of lobelia compare --accept"));
+    EXPECT_EQ(thrown_by([&] { finish_replacement(refs()); }).code(), ExitCode::kOutput);
+    for (const char* stage : {"next", "last", "now"})
+      EXPECT_EQ(read_file(ours(stage) / "thesis.txt", 100), "precious");
+    EXPECT_EQ(fs::exists(ours(".gitignore")), *mark != '\0');
+    EXPECT_EQ(texts(), kOld);
+  }
+  begin_anew();
+  put(fmt::format("refs/{}/.gitignore", kReplacedName), "# What the last");
+  EXPECT_EQ(error_of_replacing(three()).code(), ExitCode::kSuccess)
+      << "the process that made it ended while it wrote the mark";
+}
+
+TEST_F(ReplacementTrust, NoLinkOnTheWayIsFollowed) {
+  put("outside/x.exr", "precious");
+  fs::create_directory_symlink("../outside", refs() / "link");
+  const auto expect_refused = [&](const std::string& to, ExitCode code) {
+    const Error error = error_of_replacing({replacement("a", to, "precious")});
+    EXPECT_EQ(error.code(), code) << to << ": " << error.what();
+    EXPECT_EQ(read_file(path("outside/x.exr"), 100), "precious");
+  };
+  expect_refused("link/x.exr", ExitCode::kOutput);
+  expect_refused("../outside/x.exr", ExitCode::kInput);
+  expect_refused(path("outside/x.exr").string(), ExitCode::kInput);
+  // A journal that somebody sends.
+  for (const auto& [to, code] : {std::pair("link/x.exr", ExitCode::kOutput),
+                                 {"../outside/x.exr", ExitCode::kInput},
+                                 {"sub//../../outside/x.exr", ExitCode::kInput}}) {
+    fs::create_directories(ours("now"));
+    write_file(ours("now/new-0"), "evil");
+    struct stat status {};
+    ASSERT_EQ(::stat(ours("now").c_str(), &status), 0);
+    write_file(ours("now/journal"),
+               ReplacementJournal{{{to, sha256("evil"), std::nullopt}}, {}, status.st_ino}.text());
+    EXPECT_EQ(thrown_by([&] { finish_replacement(refs()); }).code(), code) << to;
+    EXPECT_EQ(read_file(path("outside/x.exr"), 100), "precious");
+  }
+}
+
+TEST_F(ReplacementTrust, ADamagedJournalIsNamed) {
+  replace(three());
+  const std::string journal = read_file(ours("last/journal"), 1000);
+  ASSERT_TRUE(ReplacementJournal::read(journal).has_value());
+  for (std::size_t size = 0; size < journal.size(); ++size)
+    EXPECT_FALSE(ReplacementJournal::read(journal.substr(0, size)).has_value()) << size;
+  write_file(ours("last/journal"), journal.substr(0, journal.size() / 2));
+  const Error error = thrown_by([&] { undo_replacement(refs()); });
+  EXPECT_EQ(error.code(), ExitCode::kInput);
+  EXPECT_THAT(error.what(), HasSubstr("last/journal: is missing or damaged"));
+  EXPECT_EQ(texts(), kNew);
+}
+
+TEST_F(ReplacementTrust, ACopyOfAJournalIsNotActedUpon) {
+  replace(three());
+  fs::copy(ours("last"), ours("now"), fs::copy_options::recursive);
+  const Error error = thrown_by([&] { finish_replacement(refs()); });
+  EXPECT_EQ(error.code(), ExitCode::kInput) << "somebody may have sent it";
+  EXPECT_THAT(error.what(), HasSubstr("now/journal: is a copy from another place"));
+  EXPECT_EQ(texts(), kNew);
+}
+
+TEST_F(ReplacementTrust, AnyoneWhoMayChangeTheFolderMayChangeItsJournal) {
+  for (const fs::path& folder : {refs(), refs() / "sub"}) fs::permissions(folder, fs::perms(02775));
+  replace(three());
+  for (const char* made : {"", "last"})
+    EXPECT_EQ(fs::status(ours(made)).permissions(), fs::perms(02775)) << made;
+}
+
+TEST_F(ReplacementTrust, AnotherUsersJournalDoesNotCountWhereEverybodyMayWrite) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
+  replace(three());
+  fs::permissions(refs(), fs::perms(01777));
+  EXPECT_TRUE(has_replacements(refs()));
+  constexpr uid_t kSomebody = 12345;
+  ASSERT_EQ(::lchown(ours("").parent_path().c_str(), kSomebody, gid_t(-1)), 0);
+  EXPECT_FALSE(has_replacements(refs()));
+  EXPECT_EQ(thrown_by([&] { undo_replacement(refs()); }).code(), ExitCode::kInput);
+  EXPECT_EQ(error_of_replacing({replacement("a", "a.exr", "new a")}).code(), ExitCode::kOutput);
+  fs::permissions(refs(), fs::perms(0777));
+  EXPECT_TRUE(has_replacements(refs()))
+      << "whoever may make entries here can also replace the files";
 }
 
 }  // namespace
