@@ -1,12 +1,10 @@
 // Each highlight is judged by itself: beside a light of any brightness a changed one is found, and nothing else is.
 #include "compare/compare.hpp"
 #include "compare/highlights/words.hpp"
-#include "compare/metrics/catalogue.hpp"
 #include "compare/sensitivity.hpp"
 #include "compare/set/report.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/spots.hpp"
-#include "tests/more_samples.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -1,5 +1,4 @@
 // Verdicts on pictures with noise: same, different, or undecided.
-#include "base/words/constants.hpp"
 #include "compare/compare.hpp"
 #include "compare/uncertainty/noise_draws.hpp"
 #include "tests/compare/noisy_pictures.hpp"

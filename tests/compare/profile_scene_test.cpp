@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/system/error.hpp"
-#include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "tests/compare/profiled_scene.hpp"
 #include "tests/json.hpp"
-#include "tests/more_samples.hpp"
 #include "tests/test.hpp"
 #include "tests/thrown.hpp"
 

@@ -1,4 +1,3 @@
-#include "base/pictures/image_io.hpp"
 #include "base/system/error.hpp"
 #include "base/system/sha256.hpp"
 #include "base/words/text.hpp"

@@ -4,7 +4,6 @@
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "renderer/render.hpp"
-#include "tests/json.hpp"
 
 namespace lobelia {
 

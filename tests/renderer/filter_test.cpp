@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "base/system/files.hpp"
-#include "base/words/constants.hpp"
 #include "lobelia_paths.hpp"
 #include "renderer/filters.hpp"
 #include "renderer/peak_bound.hpp"

@@ -166,7 +166,7 @@ std::string save(const Scene& scene, const std::string& name) {
   return fmt::format("lobelia render {} -o out.exr\n", file.string());
 }
 
-/// Every scene that is a little simpler than this one.
+/// Every scene with a little less than this one has.
 std::vector<Scene> simpler(const Scene& scene) {
   std::vector<Scene> found;
   const auto without = [&](auto member) {
@@ -188,70 +188,15 @@ std::vector<Scene> simpler(const Scene& scene) {
   without(&Scene::lights);
   without(&Scene::spheres);
   without(&Scene::planes);
-  const auto with = [&](auto&& change) {
-    Scene other = scene;
-    change(other);
-    found.push_back(std::move(other));
-  };
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const auto set = [&](auto member, auto value) {
-      if (!(scene.materials[m].*member == value))
-        with([&](Scene& s) { s.materials[m].*member = value; });
-    };
-    const Rgb specular = scene.materials[m].specular_reflectance;
-    set(&Material::fresnel, Fresnel::kNone);
-    set(&Material::diffuse_reflectance, Rgb{});
-    set(&Material::mirror_reflectance, Rgb{});
-    if (!(specular == Rgb{1, 1, 1})) set(&Material::specular_reflectance, Rgb{});
-    if (!is_black(specular)) set(&Material::specular_reflectance, Rgb{1, 1, 1});
-    const Highlight plain{*find_model("phong_rdf"), *find_lobe("cosine"), {}, 16};
-    const Highlight own = scene.materials[m].highlight;
-    for (const Highlight& h : {plain, Highlight{plain.model, own.lobe, {}, own.exponent},
-                               Highlight{own.model, plain.lobe, {}, own.exponent},
-                               Highlight{own.model, own.lobe, {}, plain.exponent}})
-      if (!(h.model == own.model && h.lobe == own.lobe && h.normalisation == own.normalisation &&
-            h.exponent == own.exponent))
-        with([&](Scene& s) { s.materials[m].highlight = h; });
-  }
-  for (std::size_t p = 0; p < scene.planes.size(); ++p)
-    if (scene.planes[p].checker_material != scene.planes[p].material)
-      for (const int material : {scene.planes[p].checker_material, scene.planes[p].material})
-        with([&](Scene& s) { s.planes[p].material = s.planes[p].checker_material = material; });
   const auto less = [&](int value, int least, auto&& put) {
     for (const int smaller : {least, value / 2, value - 1})
-      if (smaller >= least && smaller < value) with([&](Scene& s) { put(s) = smaller; });
+      if (smaller >= least && smaller < value) put(found.emplace_back(scene)) = smaller;
   };
   less(scene.film.width, 1, [](Scene& s) -> int& { return s.film.width; });
   less(scene.film.height, 1, [](Scene& s) -> int& { return s.film.height; });
   less(scene.sampler.sample_count, 1, [](Scene& s) -> int& { return s.sampler.sample_count; });
   less(scene.depth.mirror, 0, [](Scene& s) -> int& { return s.depth.mirror; });
   less(scene.depth.glossy, 0, [](Scene& s) -> int& { return s.depth.glossy; });
-  const Camera& c = scene.camera;
-  if (c.aperture_radius > 0) with([](Scene& s) { s.camera.aperture_radius = 0; });
-  if (c.principal_point_offset_x != 0)
-    with([](Scene& s) { s.camera.principal_point_offset_x = 0; });
-  if (c.principal_point_offset_y != 0)
-    with([](Scene& s) { s.camera.principal_point_offset_y = 0; });
-  if (!(scene.film.filter == Filter{})) with([](Scene& s) { s.film.filter = {}; });
-  // Materials that nothing has are left out by the numbers of those that follow.
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const int number = int(m);
-    const auto has = [&](int material) { return material == number; };
-    if (scene.materials.size() < 2 ||
-        std::any_of(scene.spheres.begin(), scene.spheres.end(),
-                    [&](const Sphere& s) { return has(s.material); }) ||
-        std::any_of(scene.planes.begin(), scene.planes.end(),
-                    [&](const Plane& p) { return has(p.material) || has(p.checker_material); }))
-      continue;
-    with([&](Scene& s) {
-      s.materials.erase(s.materials.begin() + number);
-      for (Sphere& sphere : s.spheres) sphere.material -= sphere.material > number;
-      for (Plane& plane : s.planes) {
-        plane.material -= plane.material > number;
-        plane.checker_material -= plane.checker_material > number;
-      }
-    });
-  }
   return found;
 }
 

@@ -6,7 +6,6 @@
 #include "base/system/error.hpp"
 #include "studies/cost/benchmarks.hpp"
 #include "studies/cost/lobe_variants.hpp"
-#include "tests/more_samples.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::cost {

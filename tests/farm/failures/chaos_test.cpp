@@ -23,10 +23,11 @@ std::uint64_t number_of(const char* variable, std::uint64_t otherwise) {
   return text && parse_integer(text, value) && value >= 0 ? std::uint64_t(value) : otherwise;
 }
 
-/// A farm to be disturbed, beside files of others that it must leave alone.
-class DisturbedFarm : public FailingFarm {
+/// A farm that is disturbed in its files, at its work and by its engines, beside files of others that it must leave alone.
+/// The law: whatever happens, the same command ends as if nothing had.
+class Chaos : public FailingFarm {
  protected:
-  DisturbedFarm() {
+  Chaos() {
     grid({"8", "16", "32", "64", "128", "256"});
     undisturbed();
     // They look as if they were ours.
@@ -98,14 +99,6 @@ class DisturbedFarm : public FailingFarm {
     return found;
   }
 
-  std::mt19937_64 random_;
-  const TemporaryDirectory precious_directory_;
-  Results precious_before_;
-};
-
-/// Faults to the files of a farm, to a farm at work, and of its engines.
-class FarmFaults : public DisturbedFarm {
- protected:
   // ---- to files
   void flip_a_bit() {
     const fs::path file = any_file();
@@ -221,8 +214,8 @@ class FarmFaults : public DisturbedFarm {
 
   struct Fault {
     const char* name;
-    std::function<void(FarmFaults&)> at_rest;  ///< before a farm and while one is at work
-    std::function<void(FarmFaults&, RunningFarm&)> at_work;  ///< only while one is at work
+    std::function<void(Chaos&)> at_rest;                ///< before a farm and while one is at work
+    std::function<void(Chaos&, RunningFarm&)> at_work;  ///< only while one is at work
   };
   static const std::vector<Fault>& faults();
 
@@ -244,49 +237,58 @@ class FarmFaults : public DisturbedFarm {
        "trap '' TERM INT HUP; sh -c 'sleep 0.3; exit' stray-$$"},
   };
 
+  void round(std::uint64_t seed);
+  void episode();
+  void mend();
+
+  std::mt19937_64 random_;
+  const TemporaryDirectory precious_directory_;
+  Results precious_before_;
   std::set<fs::path> links_;
   std::vector<std::unique_ptr<RunningFarm>> beside_;
   int ended_by_ = 0;
+  std::set<std::string> used_;  ///< faults of this round
+  std::string story_;           ///< of this round
+  std::map<std::string, int> rounds_with_;
 };
 
-const std::vector<FarmFaults::Fault>& FarmFaults::faults() {
+const std::vector<Chaos::Fault>& Chaos::faults() {
   static const auto signal = [](int number) {
-    return [number](FarmFaults& self, RunningFarm& farm) { self.signal(farm, number); };
+    return [number](Chaos& self, RunningFarm& farm) { self.signal(farm, number); };
   };
   static const auto limit = [](int resource, std::uint64_t most) {
-    return
-        [resource, most](FarmFaults& self, RunningFarm& farm) { self.limit(farm, resource, most); };
+    return [resource, most](Chaos& self, RunningFarm& farm) { self.limit(farm, resource, most); };
   };
   static const auto beside = [](std::vector<std::string> arguments) {
-    return [arguments](FarmFaults& self, RunningFarm&) { self.run_beside(arguments); };
+    return [arguments](Chaos& self, RunningFarm&) { self.run_beside(arguments); };
   };
   static const std::vector<Fault> all{
-      {"bit flipped", &FarmFaults::flip_a_bit, {}},
-      {"file cut", &FarmFaults::cut_a_file, {}},
-      {"file removed", &FarmFaults::remove_a_file, {}},
-      {"file replaced by a link, a pipe or a directory", &FarmFaults::replace_a_file, {}},
-      {"record overwritten", &FarmFaults::write_nonsense, {}},
-      {"cache lost, whole or in part", &FarmFaults::lose_a_part_of_the_cache, {}},
-      {"farm's directory lost, whole or in part", &FarmFaults::lose_a_part_of_the_farm, {}},
-      {"cache renamed", &FarmFaults::rename_the_cache, {}},
-      {"directory replaced by a link to others' files", &FarmFaults::put_a_link_in_its_place, {}},
-      {"temporary files lost", &FarmFaults::lose_temporary_files, {}},
-      {"half a file left behind", &FarmFaults::leave_a_part_behind, {}},
+      {"bit flipped", &Chaos::flip_a_bit, {}},
+      {"file cut", &Chaos::cut_a_file, {}},
+      {"file removed", &Chaos::remove_a_file, {}},
+      {"file replaced by a link, a pipe or a directory", &Chaos::replace_a_file, {}},
+      {"record overwritten", &Chaos::write_nonsense, {}},
+      {"cache lost, whole or in part", &Chaos::lose_a_part_of_the_cache, {}},
+      {"farm's directory lost, whole or in part", &Chaos::lose_a_part_of_the_farm, {}},
+      {"cache renamed", &Chaos::rename_the_cache, {}},
+      {"directory replaced by a link to others' files", &Chaos::put_a_link_in_its_place, {}},
+      {"temporary files lost", &Chaos::lose_temporary_files, {}},
+      {"half a file left behind", &Chaos::leave_a_part_behind, {}},
       {"kill -9", {}, signal(SIGKILL)},
       {"SIGTERM", {}, signal(SIGTERM)},
       {"Ctrl-C", {}, signal(SIGINT)},
       {"SIGHUP", {}, signal(SIGHUP)},
-      {"stopped and continued", {}, &FarmFaults::stop_for_a_while},
-      {"engine killed", {}, [](FarmFaults& self, RunningFarm&) { self.kill_an_engine(); }},
+      {"stopped and continued", {}, &Chaos::stop_for_a_while},
+      {"engine killed", {}, [](Chaos& self, RunningFarm&) { self.kill_an_engine(); }},
       {"ulimit -f", {}, limit(RLIMIT_FSIZE, 3000)},
       {"ulimit -n", {}, limit(RLIMIT_NOFILE, 12)},
       {"ulimit -v", {}, limit(RLIMIT_AS, 1 << 28)},
       {"second farm, same directory",
        {},
-       [](FarmFaults& self, RunningFarm&) { self.run_beside(self.impatient_command()); }},
+       [](Chaos& self, RunningFarm&) { self.run_beside(self.impatient_command()); }},
       {"second farm, same cache",
        {},
-       [](FarmFaults& self, RunningFarm&) {
+       [](Chaos& self, RunningFarm&) {
          auto arguments = self.impatient_command();
          arguments[3] = "beside";
          self.run_beside(arguments);
@@ -297,18 +299,6 @@ const std::vector<FarmFaults::Fault>& FarmFaults::faults() {
   };
   return all;
 }
-
-/// The law: whatever happens, the same command ends as if nothing had.
-class Chaos : public FarmFaults {
- protected:
-  void round(std::uint64_t seed);
-  void episode();
-  void mend();
-
-  std::set<std::string> used_;  ///< faults of this round
-  std::string story_;           ///< of this round
-  std::map<std::string, int> rounds_with_;
-};
 
 /// Runs a farm and disturbs it.
 void Chaos::episode() {

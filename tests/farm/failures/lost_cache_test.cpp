@@ -261,24 +261,6 @@ class DamagedCache : public FailingFarm {
   }
 };
 
-TEST_F(DamagedCache, IsMadeAgainAsFarAsAnyFileIsDamaged) {
-  const std::pair<const char*, std::size_t> jobs[] = {
-      {"render", 1}, {"reference-povray", 1}, {"compare-povray", 0}, {"profile", 0}};
-  for (const auto& [job, pictures_lost] : jobs) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(result_of("n16", job)))
-      names.push_back(entry.path().filename().string());
-    for (const auto& name : names) {
-      SCOPED_TRACE(std::string(job) + " " + name);
-      flip_a_bit(result_of("n16", job) / name);
-      const fs::path truncated = result_of("n64", job) / name;
-      fs::permissions(truncated, fs::perms::owner_write, fs::perm_options::add);
-      fs::resize_file(truncated, fs::file_size(truncated) / 2);
-      expect_mended(run(), 2 * pictures_lost);
-    }
-  }
-}
-
 TEST_F(DamagedCache, IsFoundByVerifyIfNobodyNoticesAndMadeAgain) {
   const fs::path file = result_of("n16", "reference-povray") / "povray.exr";
   const auto time = fs::last_write_time(file);

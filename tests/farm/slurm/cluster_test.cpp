@@ -55,30 +55,5 @@ TEST_F(SlurmCluster, SaysItselfThatNoNodeIsLeft) {
   EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("not available"));
 }
 
-TEST_F(SlurmCluster, GivesKilledJobsTwiceTheTime) {
-  ToyWork toy(directory.path(), 6, 0.1);
-  toy.add({"slow", 0, 2, "toy"});
-  options.chunks.target_seconds = 1;
-  options.slurm.time = "1";
-  ClientProcess client(toy.work(), options, directory.path() / "log");
-  ASSERT_TRUE(eventually([&] {
-    const auto started = toy.started();
-    return std::find(started.begin(), started.end(), "slow") != started.end();
-  }));
-  // Only the slow one is in the queue then; a minute's limit is over in a second. Slurm looks at limits every 30 s.
-  std::string left;
-  ASSERT_TRUE(eventually([&] {
-    left = cluster.slurm({"squeue", "-h", "-r", "-t", "running", "-o", "%i"});
-    return split(left, "\n").size() == 1;
-  }));
-  cluster.slurm({"scontrol", "update", "JobId=" + split(left, "\n").front(), "EndTime=now+1"});
-  EXPECT_EQ(client.wait(), 0);
-  const std::string log = read_file(directory.path() / "log", 1 << 20);
-  EXPECT_EQ(toy.results(), toy.wanted()) << log;
-  EXPECT_EQ(toy.started().size(), 8u) << "what was published stays: " << log;
-  EXPECT_THAT(log, HasSubstr("1 element: time limit reached; the next round asks for 0:02:00 "
-                             "instead of 1."));
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -4,7 +4,6 @@
 #include "base/words/text.hpp"
 #include "tests/farm/failures/failing_farm.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
-#include "tests/json.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

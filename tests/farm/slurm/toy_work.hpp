@@ -39,10 +39,6 @@ while read -r name seconds; do
   [ -e "$results/$name" ] && continue
   case $name in broken*) failed=7; continue;; esac
   echo "$name" >> "$results/../started"
-  case $name in
-    # Too long in its first round, unless somebody ends it.
-    slow*) [ "$(grep -c "^$name\$" "$results/../started")" -gt 1 ] || sleep 3600;;
-  esac
   sleep "$seconds"
   part=$(mktemp "$results/.part.XXXXXX")
   echo "result of $name" > "$part"

@@ -6,8 +6,6 @@
 
 #include "base/system/error.hpp"
 #include "renderer/operation_count.hpp"
-#include "renderer/render.hpp"
-#include "tests/canonical_scene.hpp"
 #include "tests/renderer/laws/cases.hpp"
 #include "tests/test.hpp"
 

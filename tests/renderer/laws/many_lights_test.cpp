@@ -1,6 +1,4 @@
 // One of many lights is drawn at a time. That changes the noise, and nothing else.
-#include <fmt/format.h>
-
 #include "renderer/light_tree.hpp"
 #include "renderer/scene/contact.hpp"
 #include "tests/more_samples.hpp"
