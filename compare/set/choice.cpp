@@ -148,7 +148,7 @@ std::vector<CompareOption> options_of_noise() {
   for (const auto& [name, place] :
        {std::pair("a-samples", &Choice::a_samples), {"b-samples", &Choice::b_samples}})
     options.push_back({name, place, For::kPictures, kHeading, "NUMBER",
-                       "Samples per pixel, for the variance, if the file does not say them", 1,
+                       "Samples per pixel, for the variance; 1: it is that of the mean", 1,
                        kMostSamples});
   options.push_back({"freedom", &Choice::freedom, For::kPictures, kHeading, "NUMBER",
                      "Degrees of freedom of pictures of errors: independent estimates less one", 1,

@@ -28,6 +28,12 @@ NoiseFiles::NoiseFiles(const CompareChoice& choice, ComparisonOptions& options)
   for (const auto& [letter, side] : {std::pair{"a", &a_}, {"b", &b_}}) {
     if (side->samples > 0 && side->variance.empty())
       throw Error(ExitCode::kUsage, "--{0}-samples is for --{0}-variance", letter);
+    if (side->samples == 0 && !side->variance.empty())
+      throw Error(
+          ExitCode::kUsage,
+          "--{0}-variance needs the samples of a pixel: give them with --{0}-samples, or 1 if the "
+          "variance is that of the mean",
+          letter);
     for (const std::string& given : {side->error, side->variance})
       if (given == "*" || given.rfind('*') + 1 > 1)
         throw Error(ExitCode::kUsage,
@@ -75,15 +81,8 @@ std::optional<PictureNoise> NoiseFiles::read_side(const Side& side, const std::s
                                                    : "variance";
   try {
     if (!side.error.empty()) return noise_of_standard_errors(read(side.error), freedom_, shared);
-    if (!side.variance.empty()) {
-      const double samples = side.samples > 0 ? side.samples : picture.source.samples;
-      if (samples == 0)
-        throw Error(ExitCode::kUsage,
-                    "{} does not say how many samples a pixel has; give them with "
-                    "--{}-samples, or 1 if the variance is that of the mean",
-                    printable_path(file), letter);
-      return noise_of_variances(read(side.variance), samples, freedom_, shared);
-    }
+    if (!side.variance.empty())
+      return noise_of_variances(read(side.variance), side.samples, freedom_, shared);
     if (side.replicates.empty()) return std::nullopt;
     std::vector<Image> pictures;
     for (const std::string& replicate : side.replicates) pictures.push_back(read(replicate));
