@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <limits>
 
@@ -30,66 +31,54 @@ inline double rounded_to_half(double x) {
   return std::bit_cast<double>((bits + kRest / 2 + (bits >> kDropped & 1)) & ~kRest);
 }
 
-/// Some processors replace subnormal operands and results by 0. GLSL and HLSL allow it.
-enum class Subnormals : std::uint8_t { kKept, kFlushed };
-
-template <Subnormals kSubnormals>
-class HalfOf {
+class Half {
  public:
-  using Scalar = HalfOf;
+  using Scalar = Half;
 
-  HalfOf() = default;
+  Half() = default;
   // Not explicit, so that a formula may have numbers in it.
-  HalfOf(double x) : value_(float(rounded_to_half(x))) {
-    if (kSubnormals == Subnormals::kFlushed && std::abs(value_) < float(kLeastNormalHalf))
-      value_ = std::copysign(0.0f, value_);
-  }
+  Half(double x) : value_(float(rounded_to_half(x))) {}
   explicit operator double() const { return value_; }
   explicit operator float() const { return value_; }
 
-  friend HalfOf operator+(HalfOf a, HalfOf b) { return a.wide() + b.wide(); }
-  friend HalfOf operator-(HalfOf a, HalfOf b) { return a.wide() - b.wide(); }
-  friend HalfOf operator*(HalfOf a, HalfOf b) { return a.wide() * b.wide(); }
-  friend HalfOf operator/(HalfOf a, HalfOf b) { return a.wide() / b.wide(); }
-  friend HalfOf operator-(HalfOf a) { return -a.wide(); }
-  friend bool operator==(HalfOf a, HalfOf b) { return a.value_ == b.value_; }
-  friend auto operator<=>(HalfOf a, HalfOf b) { return a.value_ <=> b.value_; }
+  friend Half operator+(Half a, Half b) { return a.wide() + b.wide(); }
+  friend Half operator-(Half a, Half b) { return a.wide() - b.wide(); }
+  friend Half operator*(Half a, Half b) { return a.wide() * b.wide(); }
+  friend Half operator/(Half a, Half b) { return a.wide() / b.wide(); }
+  friend Half operator-(Half a) { return -a.wide(); }
+  friend auto operator<=>(Half a, Half b) = default;
 
-  friend HalfOf sqrt(HalfOf x) { return std::sqrt(x.wide()); }
-  friend HalfOf abs(HalfOf x) { return std::abs(x.wide()); }
-  friend HalfOf max(HalfOf a, HalfOf b) { return a < b ? b : a; }
-  friend HalfOf min(HalfOf a, HalfOf b) { return b < a ? b : a; }
-  friend HalfOf exp(HalfOf x) { return std::exp(x.wide()); }
-  friend HalfOf log(HalfOf x) { return std::log(x.wide()); }
-  friend HalfOf pow(HalfOf x, HalfOf y) { return std::pow(x.wide(), y.wide()); }
-  friend HalfOf sin(HalfOf x) { return std::sin(x.wide()); }
-  friend HalfOf cos(HalfOf x) { return std::cos(x.wide()); }
-  friend HalfOf tan(HalfOf x) { return std::tan(x.wide()); }
-  friend HalfOf asin(HalfOf x) { return std::asin(x.wide()); }
-  friend HalfOf acos(HalfOf x) { return std::acos(x.wide()); }
-  friend HalfOf atan(HalfOf x) { return std::atan(x.wide()); }
+  friend Half sqrt(Half x) { return std::sqrt(x.wide()); }
+  friend Half abs(Half x) { return std::abs(x.wide()); }
+  friend Half max(Half a, Half b) { return a < b ? b : a; }
+  friend Half min(Half a, Half b) { return b < a ? b : a; }
+  friend Half exp(Half x) { return std::exp(x.wide()); }
+  friend Half log(Half x) { return std::log(x.wide()); }
+  friend Half pow(Half x, Half y) { return std::pow(x.wide(), y.wide()); }
+  friend Half sin(Half x) { return std::sin(x.wide()); }
+  friend Half cos(Half x) { return std::cos(x.wide()); }
+  friend Half tan(Half x) { return std::tan(x.wide()); }
+  friend Half asin(Half x) { return std::asin(x.wide()); }
+  friend Half acos(Half x) { return std::acos(x.wide()); }
+  friend Half atan(Half x) { return std::atan(x.wide()); }
 
  private:
   double wide() const { return value_; }
 
   float value_ = 0;
 };
-using Half = HalfOf<Subnormals::kKept>;
-using FlushedHalf = HalfOf<Subnormals::kFlushed>;
 
-template <class T>
-struct Half3Of {
-  T x, y, z;
-  Half3Of() = default;
-  Half3Of(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
-  explicit Half3Of(Vec3 a) : x(a.x), y(a.y), z(a.z) {}
-  friend Half3Of operator+(Half3Of a, Half3Of b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Half3Of operator-(Half3Of a, Half3Of b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Half3Of operator*(T k, Half3Of a) { return {k * a.x, k * a.y, k * a.z}; }
-  friend Half3Of operator/(Half3Of a, T k) { return {a.x / k, a.y / k, a.z / k}; }
-  friend T dot(Half3Of a, Half3Of b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  friend T length(Half3Of a) { return sqrt(dot(a, a)); }
+struct Half3 {
+  Half x, y, z;
+  Half3() = default;
+  Half3(Half x_, Half y_, Half z_) : x(x_), y(y_), z(z_) {}
+  explicit Half3(Vec3 a) : x(a.x), y(a.y), z(a.z) {}
+  friend Half3 operator+(Half3 a, Half3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Half3 operator-(Half3 a, Half3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Half3 operator*(Half k, Half3 a) { return {k * a.x, k * a.y, k * a.z}; }
+  friend Half3 operator/(Half3 a, Half k) { return {a.x / k, a.y / k, a.z / k}; }
+  friend Half dot(Half3 a, Half3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend Half length(Half3 a) { return sqrt(dot(a, a)); }
 };
-using Half3 = Half3Of<Half>;
 
 }  // namespace lobelia
