@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/system/error.hpp"
-#include "base/system/sha256.hpp"
 #include "base/words/text.hpp"
 #include "renderer/formula_lobe.hpp"
 #include "renderer/lobes/catalogue.hpp"
@@ -251,15 +250,6 @@ std::string why_not_a_lobe(const Highlight& highlight) {
   return formula ? FormulaLobe(formula, highlight.exponent).why_not() : "";
 }
 
-std::string identifier(const LobeId& lobe) {
-  const LobeInfo& about = info(lobe);
-  if (lobe.formula)
-    return fmt::format("{}_{}", about.name, hex(sha256(about.formula)).substr(0, 8));
-  std::string name(about.name);
-  std::ranges::replace(name, '.', '_');
-  return name;
-}
-
 const LobeInfo& family_info(const LobeId& lobe) {
   static constexpr auto kInfos =
       map_types<LobeInfo>(LobesById{}, []<class L>() { return L::kInfo; });
@@ -268,11 +258,11 @@ const LobeInfo& family_info(const LobeId& lobe) {
 std::string_view family(const LobeId& lobe) { return family_info(lobe).name; }
 
 std::strong_ordering operator<=>(const LobeId& a, const LobeId& b) {
-  const auto key = [](const LobeId& id) {
-    return std::tuple(id.index, id.order,
-                      id.formula ? std::string_view(id.formula->text()) : std::string_view());
+  const auto text = [](const LobeId& id) {
+    return id.formula ? std::string_view(id.formula->text()) : std::string_view();
   };
-  return key(a) <=> key(b);
+  // Not <=> of the texts, which libc++ 14 does not have.
+  return std::tuple(a.index, a.order, text(a).compare(text(b))) <=> std::tuple(b.index, b.order, 0);
 }
 
 std::optional<Normalisation> find_normalisation(std::string_view name) {

@@ -1,7 +1,10 @@
 #include "renderer/lobe_properties.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/system/sha256.hpp"
 #include "base/words/constants.hpp"
 
 namespace lobelia {
@@ -32,6 +35,15 @@ LobeProperties measure(LobeId id, double exponent) {
     compare_at(kRightAngle * i / kPoints);
   }
   return properties;
+}
+
+std::string identifier(const LobeId& lobe) {
+  const LobeInfo& about = info(lobe);
+  if (lobe.formula)
+    return fmt::format("{}_{}", about.name, hex(sha256(about.formula)).substr(0, 8));
+  std::string name(about.name);
+  std::ranges::replace(name, '.', '_');
+  return name;
 }
 
 }  // namespace lobelia

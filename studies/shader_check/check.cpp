@@ -3,69 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
 #include <set>
 
 #include "base/system/error.hpp"
 #include "base/system/sha256.hpp"
 #include "base/words/text.hpp"
 #include "studies/shader_check/arguments.hpp"
-#include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/own_shader.hpp"
-#include "studies/shader_check/points.hpp"
 #include "studies/shader_check/program_text.hpp"
 
 namespace lobelia::shader_check {
 namespace {
 
-constexpr std::size_t kDomainPoints = 600, kArcPoints = 721;
-constexpr int kSphereSize = 160;
-constexpr double kLightDegrees[] = {20, 60, 120}, kIncidences[] = {0, 45, 75};
-/// Where L + V is shorter, a rounding of the vectors turns H (docs/export.md).
-constexpr double kNearlyOpposite = 0.2, kMoreWhereOpposite = 10;
 /// A loop of Mesa's 65535 rounds takes hundreds of times as long as pow.
 constexpr double kOfALoop = 100;
-
-/// All points of a check in one list, with the place of each part.
-struct Plan {
-  std::vector<Point> points;
-  struct Part {
-    std::size_t begin = 0, count = 0;
-  };
-  Part domain, hard, arc;
-  std::vector<Part> spheres;
-  struct HemispherePart {
-    Part part;
-    double exponent, degrees;
-    std::vector<double> solid_angles;
-  };
-  std::vector<HemispherePart> hemispheres;
-
-  Part add(const std::vector<Point>& more) {
-    const Part part{points.size(), more.size()};
-    points.insert(points.end(), more.begin(), more.end());
-    return part;
-  }
-};
-
-Plan make_plan(const Request& request) {
-  Plan plan;
-  for (const double n : request.exponents)
-    plan.domain.count += plan.add(domain_points(request.highlight, n, kDomainPoints)).count;
-  plan.hard.begin = plan.points.size();
-  for (const double n : request.exponents) plan.hard.count += plan.add(hard_points(n)).count;
-  plan.arc = plan.add(arc_points(request.shown_exponent, kArcPoints));
-  for (const double degrees : kLightDegrees)
-    plan.spheres.push_back(plan.add(sphere_points(degrees, request.shown_exponent, kSphereSize)));
-  for (const double n : request.exponents)
-    for (const double degrees : kIncidences) {
-      Hemisphere half = hemisphere_points(info(request.highlight.model).angle, degrees, n);
-      plan.hemispheres.push_back({plan.add(half.points), n, degrees, std::move(half.solid_angles)});
-    }
-  return plan;
-}
 
 void require_function(const Request& request, const ShaderSource& source) {
   std::set<std::string> names = functions_in(plain_text(source));
@@ -79,80 +30,6 @@ void require_function(const Request& request, const ShaderSource& source) {
                                           did_you_mean(request.function, known)));
 }
 
-/// The results of a part of the plan, beside the model in double.
-class Judge {
- public:
-  Judge(const Request& request, const Plan& plan, const std::vector<ShaderValue>& values)
-      : highlight_(request.highlight),
-        plan_(plan),
-        values_(values),
-        coefficients_(request.highlight) {}
-
-  double coefficient(double n) { return coefficients_.at(n); }
-  double model(std::size_t i) {
-    const Point& point = plan_.points[i];
-    Highlight here = highlight_;
-    here.exponent = point.exponent;
-    return model_radiance(here, coefficient(point.exponent), Geometry(point));
-  }
-  double theirs(std::size_t i) const { return double(values_[i].r); }
-
-  records::ShaderPlace place(std::size_t i) {
-    const Geometry g(plan_.points[i]);
-    const double s = info(highlight_.model).angle == LobeAngle::kReflection ? g.s_mirror : g.s_half;
-    return {plan_.points[i].exponent,
-            g.n_dot_l,
-            g.n_dot_v,
-            2 * std::asin(std::clamp(std::sqrt(s / 2), 0.0, 1.0)) * 180 / std::numbers::pi,
-            theirs(i),
-            model(i)};
-  }
-
-  /// Compares every direction of a part, but for the edges.
-  void add_errors(const Plan::Part& part, std::map<double, records::ShaderError>& worst,
-                  records::ShaderOddities& odd) {
-    for (std::size_t i = part.begin; i < part.begin + part.count; ++i) {
-      const double n = plan_.points[i].exponent, peak = coefficient(n), value = theirs(i);
-      const Geometry geometry(plan_.points[i]);
-      ++odd.calls;
-      if (!values_[i].written) {
-        ++odd.unwritten;
-        continue;
-      }
-      records::ShaderError& error = worst[n];
-      error.exponent = n;
-      error.allowed_of_peak = allowed_error(n);
-      odd.nan += std::isnan(value);
-      odd.infinite += std::isinf(value);
-      odd.negative += value < 0;
-      odd.coloured += values_[i].g != values_[i].r && std::isfinite(value);
-      if (!std::isfinite(value)) {
-        if (!odd.first_nonfinite) odd.first_nonfinite = place(i);
-        continue;
-      }
-      if (is_at_an_edge(highlight_, geometry)) continue;
-      const double expected = model(i);
-      // In units of what is allowed there, so that the allowance is one number for an exponent.
-      const double scale = geometry.half_length < kNearlyOpposite ? kMoreWhereOpposite : 1;
-      const double of_peak = std::abs(value - expected) / peak / scale;
-      if (expected == 0 && of_peak > error.allowed_of_peak) {
-        ++odd.outside_support;
-        if (!odd.first_outside) odd.first_outside = place(i);
-      }
-      if (of_peak > error.max_of_peak || error.place.exponent == 0) {
-        error.max_of_peak = of_peak;
-        error.place = place(i);
-      }
-    }
-  }
-
- private:
-  Highlight highlight_;
-  const Plan& plan_;
-  const std::vector<ShaderValue>& values_;
-  Coefficients coefficients_;
-};
-
 void add_energy(Judge& judge, const Plan& plan, records::ShaderCheck& record) {
   for (const auto& [part, exponent, degrees, solid_angles] : plan.hemispheres) {
     records::ShaderEnergy energy{exponent, degrees, 0, 0};
@@ -162,25 +39,6 @@ void add_energy(Judge& judge, const Plan& plan, records::ShaderCheck& record) {
     }
     record.energy.push_back(energy);
   }
-}
-
-void add_explanation(const Request& request, const Plan& plan, Judge& judge, bool of_roughness,
-                     records::ShaderCheck& record) {
-  Observed observed;
-  bool is_zero = true;
-  for (std::size_t i = plan.domain.begin; i < plan.domain.begin + plan.domain.count; ++i) {
-    observed.points.push_back(plan.points[i]);
-    observed.values.push_back(judge.theirs(i));
-    is_zero = is_zero && judge.theirs(i) == 0;
-  }
-  if (!is_zero && record.oddities.nan + record.oddities.infinite < record.oddities.calls) {
-    record.explanation = explain(request.highlight, observed, of_roughness);
-    return;
-  }
-  records::ShaderExplanation& found = record.explanation.emplace();
-  found.mistakes = {is_zero ? "zero" : "no-number"};
-  found.sentence = is_zero ? "it is 0 in every direction" : "it is no finite number anywhere";
-  found.complete = true;
 }
 
 void add_pictures(const Plan& plan, Judge& judge, Check& check) {
@@ -226,7 +84,8 @@ Check check_shader(const Request& request) {
                             request.text,
                             {arguments.call(request.function, request.language)}};
   require_function(request, source);
-  const Plan plan = make_plan(request);
+  Plan plan = judged_plan(request.highlight, request.exponents, request.shown_exponent);
+  add_hemispheres(request.highlight, request.exponents, plan);
   const ShaderPoints points = arguments.of(plan.points);
   const ShaderProgram program =
       make_program(source, request.api, points.count(), points.components, request.time_limit);
@@ -255,26 +114,14 @@ Check check_shader(const Request& request) {
   if (std::ranges::none_of(values, &ShaderValue::written))
     throw Error(ExitCode::kInput, "{}: {} writes nothing: every call is discarded", record.file,
                 request.function);
-  Judge judge(request, plan, values);
-  std::map<double, records::ShaderError> worst;
-  judge.add_errors(plan.domain, worst, record.oddities);
-  judge.add_errors(plan.arc, worst, record.oddities);
-  for (const Plan::Part& sphere : plan.spheres) judge.add_errors(sphere, worst, record.oddities);
-  for (std::size_t i = plan.hard.begin; i < plan.hard.begin + plan.hard.count; ++i) {
-    ++record.oddities.hard_calls;
-    record.oddities.hard_nonfinite += !std::isfinite(judge.theirs(i));
-  }
-  bool passes = record.oddities.nan + record.oddities.infinite + record.oddities.unwritten == 0;
-  for (const auto& [n, error] : worst) {
-    record.errors.push_back(error);
-    passes = passes && error.max_of_peak <= error.allowed_of_peak;
-  }
-  record.verdict = records::kShaderVerdicts[passes ? 0 : 1];
+  Judge judge(request.highlight, plan, values);
+  judge.judge(record);
+  const bool passes = record.verdict == records::kShaderVerdicts[0];
   const auto begin = plan.points.begin() + std::ptrdiff_t(plan.domain.begin);
   const std::vector<Point> domain(begin, begin + std::ptrdiff_t(plan.domain.count));
   const ShaderPoints domain_points = arguments.of(domain);
   if (!passes) require_end(request, source, domain_points);
-  if (!passes) add_explanation(request, plan, judge, arguments.is_of_roughness(), record);
+  if (!passes) record.explanation = judge.explanation(record.oddities, arguments.is_of_roughness());
   add_energy(judge, plan, record);
   add_pictures(plan, judge, check);
   if (request.costs) {

@@ -8,7 +8,7 @@
 #include "base/records/shader_check.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/shader_check/arguments.hpp"
-#include "studies/shader_check/run_shaders.hpp"
+#include "studies/shader_check/judge.hpp"
 
 namespace lobelia::shader_check {
 
@@ -23,8 +23,6 @@ struct Request {
   TimeLimit time_limit = kShaderTimeLimit;  ///< of all that compiles and runs shaders, together
   bool costs = true;                        ///< whether to measure half floats and instructions
 };
-inline constexpr double kUsualExponents[] = {1, 4, 16, 64, 256, 1000};
-
 /// A lit sphere: light, theirs and the model's.
 struct SpherePair {
   double light_degrees = 0;
