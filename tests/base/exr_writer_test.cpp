@@ -65,28 +65,6 @@ TEST(ExrWriter, WritesTheSameBytesForAnyRowsOrThreads) {
     }
 }
 
-/// Leaves other bytes where later calls put their variables.
-[[gnu::noinline]] void litter_stack(std::mt19937& random) {
-  volatile std::uint32_t litter[1 << 16];
-  for (volatile std::uint32_t& one : litter) one = std::uint32_t(random());
-}
-
-TEST(ExrWriter, TheBytesDependOnThePictureAlone) {
-  const TemporaryDirectory directory;
-  const FlushLater quickly;
-  std::mt19937 random(4);
-  int differ = 0;
-  for (int k = 0; k < 1500; ++k) {
-    Image image(1 + int(random() % 60), 1 + int(random() % 16));
-    for (float& v : image.values()) v = random() % 3 > 0 ? 0.5f : float(random() % 1000);
-    litter_stack(random);
-    const std::string once = write(directory.path() / "a.exr", image, 16);
-    litter_stack(random);
-    differ += write(directory.path() / "a.exr", image, 16) != once;
-  }
-  EXPECT_EQ(differ, 0);
-}
-
 TEST(ExrWriter, TheBytesAreTheSameWhereverTheMemoryOfAThreadIs) {
   const TemporaryDirectory directory;
   // Small ones, because a packer sees more by chance in a small table.

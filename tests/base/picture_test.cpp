@@ -323,12 +323,5 @@ TEST_F(Curves, AreNotForAlphaAndColoursAreMultipliedByItAsLight) {
       read_picture(file("rgb.png", png_file({.samples = "abc"})), "").source.multiplied_by_alpha);
 }
 
-TEST_F(Curves, LeaveNumbersInAnExrAsTheyAre) {
-  const auto path = exr("a.exr", 1, 1, {{"Y", {0.5f}}, {"id", {123456}, Imf::UINT}});
-  const Picture id = read_picture(path, "id");
-  EXPECT_EQ(id.source.value_type, "uint");
-  EXPECT_THAT(values(id.image), ElementsAre(123456, 123456, 123456));
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -87,18 +87,6 @@ TEST_F(ScratchMemory, LeavesNoNameBehind) {
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
-TEST_F(ScratchMemory, APictureMayBeCopiedMovedAndFreed) {
-  Image image(2048, 300);
-  image.pixel(2047, 299)[2] = 5;
-  Image copy = image;
-  image = {};
-  looked_at(kAllOfThem);
-  EXPECT_EQ(copy.pixel(2047, 299)[2], 5);
-  const Image moved = std::move(copy);
-  EXPECT_EQ(moved.pixel(2047, 299)[2], 5);
-  keep_large_pieces_in_files(kAllOfThem);  // those that are in files stay there
-}
-
 TEST(InParts, CoversEachElementOnceInOrder) {
   for (const std::size_t count : {0ul, 1ul, 196607ul, 196608ul, 196609ul, 1000000ul}) {
     std::size_t next = 0;

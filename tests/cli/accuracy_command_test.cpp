@@ -31,17 +31,6 @@ TEST(RenderAccuracy, ExplainsItsChoiceWithTheErrorReached) {
               HasSubstr(accuracy["chose"]["precision"].get<std::string>()));
 }
 
-TEST(RenderAccuracy, CanSkipTheMeasurementOfTheErrorReached) {
-  const TemporaryDirectory directory;
-  const auto result = render(directory, "oblique_45.xml",
-                             {"--accuracy", "de2000=1", "--accuracy-check", "none", "-q"});
-  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  EXPECT_EQ(result.output_tail, "");
-  const Json record = read_json(directory.path() / "x.json");
-  EXPECT_EQ(record["accuracy"]["unit"], "de2000");
-  EXPECT_FALSE(record["accuracy"].contains("reached"));
-}
-
 TEST(RenderAccuracy, FailsIfTheErrorIsOutOfReach) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "effects/area_light.xml",
@@ -73,12 +62,6 @@ TEST(CostCommand, MeasuresPictures) {
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   const Json record = read_json(directory.path() / "cost" / "cost.json");
   EXPECT_FALSE(record.at("tables").at(0).at("ways").empty());
-}
-
-TEST(CostCommand, NamesTheReplacementOfARemovedLevel) {
-  const TemporaryDirectory directory;
-  for (const char* level : {"fixed-point", "engine"})
-    expect_one_line(run_lobelia({"cost", "--level", level}, directory.path()), 2, "; use lobelia ");
 }
 
 }  // namespace

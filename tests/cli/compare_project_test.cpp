@@ -176,36 +176,6 @@ TEST_F(CompareProject, IsRefusedAsJsonWithAKeyTwiceOrTooDeep) {
   }
 }
 
-TEST_F(CompareProject, MayHaveManyDotsInItsTexts) {
-  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
-  const std::string dots(100, '.');
-  project(kTwoFolders + ("title = \"" + dots + "\\\"" + dots + "\" # " + dots + "\n") +
-          "[[known]]\nmatch = '" + dots + "'\nexpires = 2027-01-31\nreason = \"\"\"\n\"" + dots +
-          "\"\n\"\"\"\n");
-  const ProcessResult result = compare({});
-  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-}
-
-TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
-  flat("mine/x.exr", 0.5f), flat("truth/x.exr", 0.5f);
-  std::mt19937 random(4);
-  const std::string good =
-      std::string(kTwoFolders) + "fail = [\"rmse=1\"]\n[[rules]]\nmatch = \"*\"\n";
-  for (int i = 0; i < 30; ++i) {
-    std::string text = good;
-    for (int change = 0; change < 3; ++change) {
-      const std::size_t at = random() % text.size();
-      if (random() % 2)
-        text[at] = char(random());
-      else
-        text.erase(at, random() % 9);
-    }
-    project(text);
-    const ProcessResult result = compare({});
-    EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 3) << text << result.output_tail;
-  }
-}
-
 TEST_F(CompareProject, EscapesItsTextsInMarkdown) {
   flat("mine/a|b,c%<i>.exr", 0.5f), flat("truth/a|b,c%<i>.exr", 0.6f);
   flat("mine/fine.exr", 0.5f), flat("truth/fine.exr", 0.5f);

@@ -51,21 +51,5 @@ TEST_F(HowPicturesAreRead, IsSaidOfLayers) {
   EXPECT_THAT(pages(pair, 0), HasSubstr("<dt>Layer</dt>\n<dd>spec</dd>"));
 }
 
-TEST_F(HowPicturesAreRead, IsByTheLayerNamesOfEachSet) {
-  for (const char* folder : {"a", "b"}) std::filesystem::create_directory(path(folder));
-  flat("a/only.exr", 1, {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2)});
-  flat("b/other.exr", 1, {channel("gloss.R", 3), channel("gloss.G", 3), channel("gloss.B", 3)});
-  // Each picture is without another: exit code 3.
-  const std::string all = pages({"a", "b", "--layer", "spec=gloss"}, 3);
-  EXPECT_THAT(all, AllOf(HasSubstr("<dt>Layer</dt>\n<dd>spec</dd>"),
-                         HasSubstr("<dt>Layer</dt>\n<dd>gloss</dd>")));
-}
-
-TEST_F(HowPicturesAreRead, IsNoMatterForAnOrdinaryPicture) {
-  good_exr();
-  EXPECT_THAT(compare({"good.exr", "good.exr"}).output_tail,
-              ::testing::Not(::testing::ContainsRegex("\n  [ab]: ")));
-}
-
 }  // namespace
 }  // namespace lobelia

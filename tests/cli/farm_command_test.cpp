@@ -82,19 +82,6 @@ TEST(FarmCommand, RepairsFilesReportedByItsGallery) {
   expect_found("changed", "cell.json is not the record that the farm wrote");
 }
 
-TEST(FarmCommand, GivesNoisyCellsTheVerdictsOfItsGallery) {
-  const TemporaryDirectory directory;
-  std::filesystem::create_symlink(kScenes + "effects", directory.path() / "effects");
-  write_file(directory.path() / "grid.xml",
-             "<grid version=\"1\"><scene file=\"effects/mirrors.xml\"/>"
-             "<film width=\"24\" height=\"24\"/><axis name=\"light\" "
-             "values=\"effects/mirrors.xml, effects/depth_of_field.xml, effects/area_light.xml\"/>"
-             "<engine name=\"analytic\"/></grid>");
-  ASSERT_EQ(run_lobelia({"farm", "grid.xml", "-o", "out", "-q"}, directory.path()).exit_code, 1);
-  const auto published = run_lobelia({"gallery", "out"}, directory.path());
-  EXPECT_EQ(published.exit_code, 0) << published.output_tail;
-}
-
 TEST(FarmCommand, FailsUpFrontIfItsGalleryCannotBeWritten) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());

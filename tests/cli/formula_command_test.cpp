@@ -1,6 +1,4 @@
 // A lobe by its formula, as a user tries one.
-#include <nlohmann/json.hpp>
-
 #include "tests/cli/page_commands.hpp"
 #include "tests/test.hpp"
 
@@ -33,18 +31,6 @@ TEST_F(TryALobe, IsPlannedAndListedAsSlowAndDouble) {
   EXPECT_EQ(models.exit_code, 0);
   EXPECT_THAT(models.output_tail, HasSubstr("1 / (1 + n * s)^2"));
   EXPECT_THAT(models.output_tail, HasSubstr("modified_phong            expression          exact"));
-}
-
-TEST_F(TryALobe, IsHeldByTheSceneFilesThatCanHoldIt) {
-  const std::string scene = "scene \"$SCENES\"oblique_45.xml --formula 'exp(-n*s)' --to ";
-  EXPECT_EQ(run(scene + "lobelia -o s.xml").exit_code, 0);
-  EXPECT_THAT(text("s.xml"), HasSubstr("<string name=\"formula\" value=\"exp(-n * s)\"/>"));
-  EXPECT_EQ(run("render s.xml -o s.exr").exit_code, 0);
-  EXPECT_EQ(run(scene + "json -o s.json").exit_code, 0);
-  EXPECT_EQ(nlohmann::json::parse(text("s.json"))["materials"][0]["lobeFormula"], "exp(-n * s)");
-  const auto mitsuba = run(scene + "mitsuba -o m.xml");
-  EXPECT_NE(mitsuba.exit_code, 0);
-  EXPECT_THAT(mitsuba.output_tail, HasSubstr("with the lobe expression"));
 }
 
 TEST_F(TryALobe, VariesInAGrid) {

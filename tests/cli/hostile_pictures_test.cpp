@@ -24,7 +24,6 @@ class Corpus {
       claim(sample);
     }
     add_odd_values();
-    add_odd_exrs();
   }
   const std::vector<Sample>& pictures() const { return pictures_; }
 
@@ -91,30 +90,6 @@ class Corpus {
       std::fill(values.begin(), values.end(), value);
       add("odd", {"all.pfm", ""}, pfm_file(8, 8, values));
     }
-  }
-  void add_odd_exrs() {
-    const TemporaryDirectory scratch;
-    const auto exr = [&](const std::string& what, const std::vector<ExrPart>& parts) {
-      const auto path = scratch.path() / "a.exr";
-      write_exr_parts(path, parts);
-      add(what, {"odd.exr", ""}, read_file(path, 1 << 24));
-    };
-    const std::vector<float> values(16, 0.5f);
-    const auto box = window(0, 0, 4, 4);
-    for (const char* names :
-         {".", "..", "R.", ".R", "R.R", "a..R", "\x1b[31m", "\n", "\xff\xfe", "A"})
-      exr("channel", {{"", box, box, {{names, values}}}});
-    std::vector<ExrChannel> many;
-    for (int i = 0; i < 300; ++i) many.push_back({fmt::format("c{}", i), values});
-    exr("channels", {{"", box, box, many}});
-    std::vector<ExrPart> parts;
-    for (int i = 0; i < 40; ++i)
-      parts.push_back({fmt::format("p{}", i), box, box, {{"Y", values}}});
-    exr("parts", parts);
-    for (const auto& display :
-         {window(100, 100, 4, 4), window(-3, -3, 4, 4), window(0, 0, 1, 1), window(2, 2, 30000, 1),
-          window(-1000000000, 0, 4, 4), window(0, 0, 30000, 30000)})
-      exr("window", {{"", box, display, {{"Y", values}}}});
   }
   std::mt19937 random_;
   std::vector<Sample> pictures_;

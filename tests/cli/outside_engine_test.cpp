@@ -298,16 +298,6 @@ TEST_F(OutsideEngines, IsListedWithItsVersionAndState) {
                                         HasSubstr("no program 'no_such_program'")));
 }
 
-TEST_F(OutsideEngines, IsSharedByGridsThroughAnEngineFile) {
-  script("mine.sh", "");
-  fs::create_directory(path("engines"));
-  fs::rename(path("mine.sh"), path("engines/mine.sh"));
-  write_file(path("engines/mine.engine.xml"), kMine);
-  grid("<engine file=\"engines/mine.engine.xml\"/>");
-  EXPECT_EQ(farm().exit_code, 0);
-  EXPECT_THAT(images(), ElementsAre("lobelia", "mine"));
-}
-
 TEST_F(OutsideEngines, IsRefusedWithTheLineOfAWrongDescription) {
   const std::pair<const char*, const char*> cases[] = {
       {"<engine name=\"povray\" command=\"x {out}\"/>", "the name 'povray' is taken"},

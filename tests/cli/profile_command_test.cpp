@@ -86,22 +86,6 @@ TEST_F(ProfileCommand, MeasuresTheHighlightAtAPlaceOrInARegion) {
   EXPECT_NEAR(inside["highlights"][0]["images"]["two_lights"]["peak"]["x"].get<double>(), x, 1);
 }
 
-TEST_F(ProfileCommand, TakesTheNoiseFromReplicatesOrStandardErrors) {
-  const auto source = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"profile", "two_lights.exr"});
-    const Json record = record_of(more);
-    EXPECT_GT(record["highlights"][0]["images"]["two_lights"]["standardErrors"]["peak"], 0);
-    return record["pictures"]["two_lights"]["standardErrorsFrom"];
-  };
-  EXPECT_EQ(source({"--replicate", "oblique_45.exr"}), "given");
-  EXPECT_EQ(source({"--error", "oblique_45.exr"}), "given");
-  const Json scene = record_of({"profile", "two_lights.exr", "--error", "oblique_45.exr", "--scene",
-                                two_lights_, "--light", "0"});
-  const Json& highlight = scene["images"]["two_lights"]["highlight"];
-  EXPECT_EQ(highlight["standardErrors"]["source"], "given");
-  EXPECT_EQ(highlight["explanations"].size(), 4u);
-}
-
 TEST_F(ProfileCommand, WritesTablesAndChartsOrPrintsThem) {
   EXPECT_EQ(
       run({"profile", "two_lights.exr", "--scene", two_lights_, "--csv", "all.csv"}).exit_code, 0);

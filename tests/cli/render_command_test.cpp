@@ -27,22 +27,6 @@ TEST(RenderCommand, WarnsOutsideThePapersExponents) {
     EXPECT_THAT(render(exponent, "paper").output_tail, testing::Not(HasSubstr("warning")));
 }
 
-TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
-  const TemporaryDirectory directory;
-  ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "-o", "x.exr", "--model",
-                         "modified_phong", "--exponent", "100"},
-                        directory.path())
-                .exit_code,
-            0);
-  const Json record = read_json(directory.path() / "x.json");
-  EXPECT_GT(record["seconds"]["total"], 0);
-  EXPECT_EQ(record["highlights"][0]["model"], "modified_phong");
-  EXPECT_EQ(record["highlights"][0]["exponent"], 100);
-  EXPECT_EQ(record["image"]["file"], "x.exr");
-  EXPECT_GE(record["plan"]["effects"].size(), 3u);
-  EXPECT_EQ(files_in(directory.path()), 2u);
-}
-
 TEST(RenderCommand, KeepsTheOldPictureAndNothingElseOnAFullDisk) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "x.exr", "old");
@@ -99,16 +83,6 @@ const std::string kWhenItListens =
     "}\n";
 const std::string kLongRender =
     "\"$LOBELIA\" render \"$SCENES\"oblique_45.xml --width 4096 --height 4096 --samples 4096 -q -o x.exr --png x.png";
-
-TEST(RenderCommand, LeavesNothingAfterCtrlC) {
-  const TemporaryDirectory directory;
-  const auto result = run_shell(kWhenItListens + "{ when_it_listens; kill -INT $$; } & " +
-                                    kTellProcess + "exec " + kLongRender,
-                                directory.path());
-  EXPECT_EQ(result.exit_code, 130) << result.output_tail;
-  EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
-  EXPECT_EQ(files_in(directory.path()), 0u);
-}
 
 TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
   const TemporaryDirectory directory;

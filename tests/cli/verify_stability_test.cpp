@@ -56,17 +56,5 @@ TEST(VerifyReferences, EndsWith5WhereAnEngineFails) {
   EXPECT_THAT(result.output_tail, HasSubstr(" comparisons, none misses its target, "));
 }
 
-TEST(VerifyStability, RefusesBadPlacesBeforeItWorks) {
-  const TemporaryDirectory directory;
-  write_file(directory.path() / "file", "");
-  const auto expect_refused = [&](const char* option, const char* place) {
-    expect_one_line(run_lobelia({"verify", "stability", option, place}, directory.path()), 4,
-                    place);
-  };
-  expect_refused("--json", "no/such/s.json");
-  expect_refused("--pictures", "file");
-  EXPECT_EQ(files_in(directory.path()), 1u);
-}
-
 }  // namespace
 }  // namespace lobelia

@@ -24,161 +24,143 @@ std::string renamed(std::string text, const Renames& renames) {
   return text;
 }
 
-/// One thing more in a copy of the tree.
-class Addition {
- public:
-  Addition(const fs::path& tree, std::string what) : tree_(tree), what_(std::move(what)) {}
+/// A copied file; NAME in CONTRIBUTING.md stands for the added one.
+struct Copy {
+  std::string from, to;
+  Renames renames;
+};
 
-  /// NAME in CONTRIBUTING.md stands for the added one.
-  void copy(const std::string& from, const std::string& name, const Renames& renames) {
-    std::string to = name;
-    while (to.find("NAME") != to.npos) to.replace(to.find("NAME"), 4, "throwaway");
-    ASSERT_FALSE(fs::exists(tree_ / to)) << to;
-    write(tree_ / to, renamed(read(tree_ / from), renames));
-    files_.insert(name);
+/// Puts `more` behind a text of a file, which CONTRIBUTING.md may name as one of many.
+struct Insertion {
+  std::string file, after, more, named = {};
+};
+
+/// One thing more in a copy of the tree.
+struct Addition {
+  std::string what;
+  std::vector<Copy> copies;
+  std::vector<Insertion> insertions;
+};
+
+/// The files of the row in CONTRIBUTING.md, "| a lobe | `...`, `...` |".
+std::set<std::string> documented(const fs::path& tree, const std::string& what) {
+  std::set<std::string> named;
+  for (const std::string& line : lines(read(tree / "CONTRIBUTING.md"))) {
+    if (!line.starts_with("| " + what + " |")) continue;
+    static const std::regex span("`([^`]+)`");
+    for (std::sregex_iterator it(line.begin(), line.end(), span), end; it != end; ++it)
+      named.insert((*it)[1]);
   }
-  /// Puts `more` behind a text of the file, which CONTRIBUTING.md may name as one of many.
-  void list(const std::string& file, const std::string& after, const std::string& more,
-            const std::string& named = "") {
-    std::string text = read(tree_ / file);
+  return named;
+}
+
+void add(const fs::path& tree, const Addition& addition) {
+  std::set<std::string> files;
+  for (const Copy& copy : addition.copies) {
+    const std::string to = renamed(copy.to, {{"NAME", "throwaway"}});
+    ASSERT_FALSE(fs::exists(tree / to)) << to;
+    write(tree / to, renamed(read(tree / copy.from), copy.renames));
+    files.insert(copy.to);
+  }
+  for (const auto& [file, after, more, named] : addition.insertions) {
+    std::string text = read(tree / file);
     const std::size_t at = text.find(after);
     ASSERT_NE(at, text.npos) << file << ": " << after;
     text.insert(at + after.size(), more);
-    write(tree_ / file, text);
-    files_.insert(named.empty() ? file : named);
+    write(tree / file, text);
+    files.insert(named.empty() ? file : named);
   }
-  /// The files of the row in CONTRIBUTING.md, "| a lobe | `...`, `...` |".
-  void expect_as_documented() const {
-    for (const std::string& line : lines(read(tree_ / "CONTRIBUTING.md"))) {
-      if (!line.starts_with("| " + what_ + " |")) continue;
-      static const std::regex span("`([^`]+)`");
-      std::set<std::string> named;
-      for (std::sregex_iterator it(line.begin(), line.end(), span), end; it != end; ++it)
-        named.insert((*it)[1]);
-      EXPECT_EQ(files_, named) << what_;
-      return;
-    }
-    ADD_FAILURE() << "CONTRIBUTING.md has no row for " << what_;
-  }
+  EXPECT_EQ(files, documented(tree, addition.what)) << addition.what;
+}
 
- private:
-  const fs::path& tree_;
-  std::string what_;
-  std::set<std::string> files_;
+const Renames kLobe{{"schlick", "throwaway"}, {"Schlick", "Throwaway"}, {"SCHLICK", "THROWAWAY"}};
+const Renames kModel{{"modified_phong", "throwaway"},
+                     {"ModifiedPhong", "Throwaway"},
+                     {"Modified_Phong", "Throwaway"},
+                     {"MODIFIED_PHONG", "THROWAWAY"}};
+const Renames kEngine{{"engines/analytic/analytic.hpp", "engines/throwaway/throwaway.hpp"},
+                      {"Analytic", "Throwaway"},
+                      {"analytic_", "throwaway_"},
+                      {"make_analytic", "make_throwaway"},
+                      {"\"analytic", "\"throwaway"},
+                      {"'analytic'", "'throwaway'"}};
+const std::string kFormulas = "reference_scenes/engines/blender/blender_formulas.py";
+const std::string kEngines = "reference_scenes/engines/";
+
+const std::vector<Addition> kAdditions{
+    {"a lobe",
+     {{"renderer/lobes/schlick.hpp", "renderer/lobes/NAME.hpp", kLobe},
+      {"renderer/export/povray/lobes/schlick.inc", "renderer/export/povray/lobes/NAME.inc", kLobe}},
+     {{"renderer/lobes/catalogue.hpp", "schlick.hpp\"\n",
+       "#include \"renderer/lobes/throwaway.hpp\"\n"},
+      {"renderer/lobes/catalogue.hpp", "SchlickLobe", ", ThrowawayLobe"},
+      {kFormulas, "LOBES = {\n",
+       "    \"throwaway\": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),\n"
+       "                      lambda nodes, s, n, k: schlick_node(nodes, s, n),\n"
+       "                      lambda n, k: 1.0),\n"}}},
+    {"a model",
+     {{"renderer/models/modified_phong.hpp", "renderer/models/NAME.hpp", kModel},
+      {"renderer/export/povray/models/modified_phong.inc", "renderer/export/povray/models/NAME.inc",
+       kModel}},
+     {{"renderer/models/catalogue.hpp", "modified_phong.hpp\"\n",
+       "#include \"renderer/models/throwaway.hpp\"\n"},
+      {"renderer/models/catalogue.hpp", "TypeList<PhongRdf, ModifiedPhong", ", Throwaway"},
+      {kFormulas, "MODELS = {\n",
+       "    \"throwaway\": Model(False, False, 1.0, True, 1,\n"
+       "                       lambda n, tail: (n + 2) / (2 * math.pi),\n"
+       "                       lambda n: (1.063 * n + 1) / (2 * math.pi)),\n"},
+      {"reference_scenes/engines/analytic/formulas/highlight.cpp", "kRows[] = {\n",
+       "    {\"throwaway\", kR, true, false, true, 1},\n"}}},
+    {"a metric",
+     {{"compare/metrics/relmse.cpp",
+       "compare/metrics/NAME.cpp",
+       {{"relmse", "throwaway"}, {"Relmse", "Throwaway"}}}},
+     {{"compare/metrics/catalogue.cpp", "#define LOBELIA_METRICS(METRIC) ", "METRIC(throwaway) "}}},
+    {"a light",
+     {{"renderer/scene/lights/constant.hpp",
+       "renderer/scene/lights/NAME.hpp",
+       {{"\"constant\"", "\"throwaway\""},
+        {"ConstantLight", "ThrowawayLight"},
+        {"_CONSTANT_", "_THROWAWAY_"}}}},
+     {{"renderer/scene/lights/catalogue.hpp", "sphere.hpp\"\n",
+       "#include \"renderer/scene/lights/throwaway.hpp\"\n"},
+      {"renderer/scene/lights/catalogue.hpp", "ConstantLight", ", ThrowawayLight"}}},
+    {"an effect of light",
+     {{"renderer/plan/effects/ground.hpp",
+       "renderer/plan/effects/NAME.hpp",
+       {{"struct Ground", "struct Throwaway"}, {"\"ground\"", "\"throwaway\""}}}},
+     {{"renderer/plan/effects/catalogue.hpp", "shadows.hpp\"\n",
+       "#include \"renderer/plan/effects/throwaway.hpp\"\n"},
+      {"renderer/plan/effects/catalogue.hpp", "effects::Ground", ", effects::Throwaway"},
+      // One of the files there has its effect on rays.
+      {"renderer/waves/surfaces.cpp", "static constexpr Sphere kAnySphere{};\n",
+       "  if (prepared.plan.on<effects::Throwaway>())\n"
+       "    work.work.of<effects::Throwaway>() += wave.count;\n",
+       "renderer/waves/"}}},
+    {"an engine",
+     {{kEngines + "analytic/analytic.hpp", kEngines + "NAME/NAME.hpp", kEngine},
+      {kEngines + "analytic/analytic.cpp", kEngines + "NAME/NAME.cpp", kEngine}},
+     {{kEngines + "catalogue.cpp", "analytic.hpp\"\n",
+       "#include \"reference_scenes/engines/throwaway/throwaway.hpp\"\n"},
+      {kEngines + "catalogue.cpp", "keep_analytic_input},\n",
+       "    {kThrowawayInfo, make_throwaway, keep_throwaway_input},\n"}}},
+    {"a command",
+     {{"program/command/scene_format.cpp",
+       "program/command/NAME.cpp",
+       {{"add_scene_format", "add_throwaway"}, {"\"scene-format\"", "\"throwaway\""}}}},
+     {{"program/command/commands.hpp", "command(scene_format)", " command(throwaway)"}}},
+    {"a view of the gallery",
+     {{"gallery/pages/paper_page.cpp",
+       "gallery/pages/NAME_page.cpp",
+       {{"paper_view", "throwaway_view"},
+        {"paper_page", "throwaway_page"},
+        {"\"paper\", \"Paper\", \"paper.html\"",
+         "\"throwaway\", \"Throwaway\", \"throwaway.html\""}}},
+      {"gallery/web/src/views/paper.ts",
+       "gallery/web/src/views/NAME.ts",
+       {{"function paper(", "function throwaway("}}}},
+     {{"gallery/pages/views.cpp", "VIEW(paper)", " VIEW(throwaway)"}}},
 };
-
-void add_lobe(const fs::path& tree) {
-  const Renames renames{
-      {"schlick", "throwaway"}, {"Schlick", "Throwaway"}, {"SCHLICK", "THROWAWAY"}};
-  Addition lobe(tree, "a lobe");
-  lobe.copy("renderer/lobes/schlick.hpp", "renderer/lobes/NAME.hpp", renames);
-  lobe.list("renderer/lobes/catalogue.hpp", "schlick.hpp\"\n",
-            "#include \"renderer/lobes/throwaway.hpp\"\n");
-  lobe.list("renderer/lobes/catalogue.hpp", "SchlickLobe", ", ThrowawayLobe");
-  lobe.copy("renderer/export/povray/lobes/schlick.inc", "renderer/export/povray/lobes/NAME.inc",
-            renames);
-  lobe.list("reference_scenes/engines/blender/blender_formulas.py", "LOBES = {\n",
-            "    \"throwaway\": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),\n"
-            "                      lambda nodes, s, n, k: schlick_node(nodes, s, n),\n"
-            "                      lambda n, k: 1.0),\n");
-  lobe.expect_as_documented();
-}
-
-void add_model(const fs::path& tree) {
-  const Renames renames{{"modified_phong", "throwaway"},
-                        {"ModifiedPhong", "Throwaway"},
-                        {"Modified_Phong", "Throwaway"},
-                        {"MODIFIED_PHONG", "THROWAWAY"}};
-  Addition model(tree, "a model");
-  model.copy("renderer/models/modified_phong.hpp", "renderer/models/NAME.hpp", renames);
-  model.list("renderer/models/catalogue.hpp", "modified_phong.hpp\"\n",
-             "#include \"renderer/models/throwaway.hpp\"\n");
-  model.list("renderer/models/catalogue.hpp", "TypeList<PhongRdf, ModifiedPhong", ", Throwaway");
-  model.copy("renderer/export/povray/models/modified_phong.inc",
-             "renderer/export/povray/models/NAME.inc", renames);
-  model.list("reference_scenes/engines/blender/blender_formulas.py", "MODELS = {\n",
-             "    \"throwaway\": Model(False, False, 1.0, True, 1,\n"
-             "                       lambda n, tail: (n + 2) / (2 * math.pi),\n"
-             "                       lambda n: (1.063 * n + 1) / (2 * math.pi)),\n");
-  model.list("reference_scenes/engines/analytic/formulas/highlight.cpp", "kRows[] = {\n",
-             "    {\"throwaway\", kR, true, false, true, 1},\n");
-  model.expect_as_documented();
-}
-
-void add_metric(const fs::path& tree) {
-  Addition metric(tree, "a metric");
-  metric.copy("compare/metrics/relmse.cpp", "compare/metrics/NAME.cpp",
-              {{"relmse", "throwaway"}, {"Relmse", "Throwaway"}});
-  metric.list("compare/metrics/catalogue.cpp", "#define LOBELIA_METRICS(METRIC) ",
-              "METRIC(throwaway) ");
-  metric.expect_as_documented();
-}
-
-void add_light(const fs::path& tree) {
-  Addition light(tree, "a light");
-  light.copy("renderer/scene/lights/constant.hpp", "renderer/scene/lights/NAME.hpp",
-             {{"\"constant\"", "\"throwaway\""},
-              {"ConstantLight", "ThrowawayLight"},
-              {"_CONSTANT_", "_THROWAWAY_"}});
-  light.list("renderer/scene/lights/catalogue.hpp", "sphere.hpp\"\n",
-             "#include \"renderer/scene/lights/throwaway.hpp\"\n");
-  light.list("renderer/scene/lights/catalogue.hpp", "ConstantLight", ", ThrowawayLight");
-  light.expect_as_documented();
-}
-
-void add_effect(const fs::path& tree) {
-  Addition effect(tree, "an effect of light");
-  effect.copy("renderer/plan/effects/ground.hpp", "renderer/plan/effects/NAME.hpp",
-              {{"struct Ground", "struct Throwaway"}, {"\"ground\"", "\"throwaway\""}});
-  effect.list("renderer/plan/effects/catalogue.hpp", "shadows.hpp\"\n",
-              "#include \"renderer/plan/effects/throwaway.hpp\"\n");
-  effect.list("renderer/plan/effects/catalogue.hpp", "effects::Ground", ", effects::Throwaway");
-  // One of the files there has its effect on rays.
-  effect.list("renderer/waves/surfaces.cpp", "static constexpr Sphere kAnySphere{};\n",
-              "  if (prepared.plan.on<effects::Throwaway>())\n"
-              "    work.work.of<effects::Throwaway>() += wave.count;\n",
-              "renderer/waves/");
-  effect.expect_as_documented();
-}
-
-void add_engine(const fs::path& tree) {
-  const Renames renames{{"engines/analytic/analytic.hpp", "engines/throwaway/throwaway.hpp"},
-                        {"Analytic", "Throwaway"},
-                        {"analytic_", "throwaway_"},
-                        {"make_analytic", "make_throwaway"},
-                        {"\"analytic", "\"throwaway"},
-                        {"'analytic'", "'throwaway'"}};
-  const std::string folder = "reference_scenes/engines/";
-  Addition engine(tree, "an engine");
-  for (const std::string ending : {".hpp", ".cpp"})
-    engine.copy(folder + "analytic/analytic" + ending, folder + "NAME/NAME" + ending, renames);
-  engine.list(folder + "catalogue.cpp", "analytic.hpp\"\n",
-              "#include \"reference_scenes/engines/throwaway/throwaway.hpp\"\n");
-  engine.list(folder + "catalogue.cpp", "keep_analytic_input},\n",
-              "    {kThrowawayInfo, make_throwaway, keep_throwaway_input},\n");
-  engine.expect_as_documented();
-}
-
-void add_command(const fs::path& tree) {
-  Addition command(tree, "a command");
-  command.copy("program/command/scene_format.cpp", "program/command/NAME.cpp",
-               {{"add_scene_format", "add_throwaway"}, {"\"scene-format\"", "\"throwaway\""}});
-  command.list("program/command/commands.hpp", "command(scene_format)", " command(throwaway)");
-  command.expect_as_documented();
-}
-
-void add_view(const fs::path& tree) {
-  Addition view(tree, "a view of the gallery");
-  view.copy("gallery/pages/paper_page.cpp", "gallery/pages/NAME_page.cpp",
-            {{"paper_view", "throwaway_view"},
-             {"paper_page", "throwaway_page"},
-             {"\"paper\", \"Paper\", \"paper.html\"",
-              "\"throwaway\", \"Throwaway\", \"throwaway.html\""}});
-  view.list("gallery/pages/views.cpp", "VIEW(paper)", " VIEW(throwaway)");
-  view.copy("gallery/web/src/views/paper.ts", "gallery/web/src/views/NAME.ts",
-            {{"function paper(", "function throwaway("}});
-  view.expect_as_documented();
-}
 
 class Adding : public testing::Test {
  protected:
@@ -214,14 +196,7 @@ class Adding : public testing::Test {
 };
 
 TEST_F(Adding, OneOfEachTakesTheFilesListedInContributing) {
-  add_lobe(tree.path());
-  add_model(tree.path());
-  add_metric(tree.path());
-  add_light(tree.path());
-  add_effect(tree.path());
-  add_engine(tree.path());
-  add_command(tree.path());
-  add_view(tree.path());
+  for (const Addition& addition : kAdditions) add(tree.path(), addition);
   if (HasFailure()) return;
   build();
   if (HasFatalFailure()) return;

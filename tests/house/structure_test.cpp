@@ -235,33 +235,5 @@ TEST(Pages, NameOnlyTargetsOfMake) {
     EXPECT_TRUE(promised.contains(target)) << "README.md does not mention make " << target;
 }
 
-TEST(Pages, NameOnlySubcommandsOfLobelia) {
-  const auto subcommands = words_after("lobelia", read(kRoot / "README.md"));
-  EXPECT_FALSE(subcommands.empty());
-  Scratch scratch;
-  for (const std::string& name : subcommands) {
-    const fs::path help = scratch / "help";
-    const std::string command = quoted(LOBELIA_PROGRAM) + " " + name + " --help > " + quoted(help);
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    // An unknown word before --help gets the program's own help.
-    EXPECT_THAT(read(help), HasSubstr("Usage: lobelia " + name + " "))
-        << "README.md says lobelia " << name;
-  }
-}
-
-TEST(Pages, NameEveryCommandThatCiRuns) {
-  const auto said = commands(read(kRoot / "README.md"));
-  static const std::regex command("^ *(make .*)$");
-  std::smatch match;
-  int found = 0;
-  for (const std::string& line : lines(read(kRoot / ".ci/run"))) {
-    if (!std::regex_match(line, match, command)) continue;
-    ++found;
-    EXPECT_NE(std::find(said.begin(), said.end(), match[1].str()), said.end())
-        << "README.md does not say: " << match[1];
-  }
-  EXPECT_EQ(found, 4);
-}
-
 }  // namespace
 }  // namespace house

@@ -27,19 +27,6 @@ TEST(Installed, ProgramRendersComparesAndProfilesWhereItWasMoved) {
   EXPECT_THAT(profiled.output, HasSubstr("analytic"));
 }
 
-TEST(Installed, EnginesAreThoseOfTheBuildTree) {
-  const auto names = [](const std::string& text) {
-    std::string found;
-    for (const std::string& line : house::lines(text))
-      if (line.find("(--engine ") != line.npos) found += line + "\n";
-    return found;
-  };
-  const Ran built = run(house::quoted(LOBELIA_PROGRAM) + " engines");
-  const Ran installed = run(house::quoted(installed_tree().prefix() / "bin/lobelia") + " engines");
-  EXPECT_THAT(names(installed.output), Not(IsEmpty()));
-  EXPECT_EQ(names(installed.output), names(built.output));
-}
-
 TEST(Installed, FarmRendersAnInstalledGrid) {
   const InstalledTree& tree = installed_tree();
   const Ran planned =

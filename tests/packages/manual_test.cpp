@@ -95,12 +95,5 @@ TEST(Completion, KnowsEveryCommandAndOptionInBash) {
   EXPECT_FALSE(completed("lobelia farm status --").contains("--effects"));
 }
 
-TEST(Completion, HasNoErrorThatShellcheckFinds) {
-  if (!has_program("shellcheck")) GTEST_SKIP() << "shellcheck is not installed";
-  const Ran ran = installed_tree().shell(
-      "shellcheck --shell=bash \"$PREFIX\"/share/bash-completion/completions/lobelia");
-  EXPECT_EQ(ran.exit_code, 0) << ran.output;
-}
-
 }  // namespace
 }  // namespace packages

@@ -4,7 +4,6 @@ import _thread
 import concurrent.futures
 import json
 import os
-import signal
 import subprocess
 import sys
 import textwrap
@@ -76,22 +75,6 @@ def test_ctrl_c_stops_a_render_and_the_next_one_works():
     """)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stdout == "stopped (8, 8, 3)\n", done.stderr
-
-
-def test_ctrl_c_from_outside_ends_a_script_with_130():
-    code = textwrap.dedent("""
-        import lobelia
-        def say(fraction):
-            print("at work", flush=True)
-        lobelia.render(lobelia.scenes()["oblique_45"], say, width=8000, height=8000, samples=4096)
-    """)
-    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True)  # fmt: skip
-    assert process.stdout.readline() == "at work\n"
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate()
-    assert "KeyboardInterrupt" in errors
-    assert process.returncode in (130, -signal.SIGINT)
 
 
 def test_other_threads_run_meanwhile(scene):
@@ -328,17 +311,6 @@ def test_a_profile_without_a_scene_finds_a_gaussian():
         lobelia.profile(spot, scene="a.xml", at=(1, 1))
 
 
-def test_a_profile_takes_pixels_for_means_if_told(scene):
-    one = {"width": 96, "height": 96}
-    many = lobelia.render(scene, samples=64, **one)
-    found = {}
-    for filter in ("box", "none"):
-        figures = lobelia.profile(many, scene=scene, light=0, filter=filter, **one).images["a"].highlight
-        found[figures.pixels_show] = figures.explanations[0].exponent
-    assert found["means"] == pytest.approx(64, rel=1e-3)
-    assert found["centres"] < 63.8
-
-
 def test_the_analytic_reference_agrees_with_a_render(scene):
     theirs = lobelia.reference(scene, "analytic", width=96, height=96)
     ours = lobelia.render(scene, width=96, height=96)
@@ -395,13 +367,3 @@ def test_a_farm_has_the_identity_of_the_module_and_not_of_python(scene, tmp_path
     if notes.returncode != 0:
         pytest.skip("readelf is not installed")
     assert program.split()[-1] in notes.stdout
-
-
-def test_cost_measures_a_level(small_scene):
-    record = lobelia.cost(small_scene, level="picture", effort="quick")
-    assert record.kind == "cost"
-    assert {table.level for table in record.tables} == {"picture"}
-    with pytest.raises(lobelia.UsageError, match="needs a SCENE"):
-        lobelia.cost(level="picture")
-    with pytest.raises(lobelia.UsageError, match="lobe"):
-        lobelia.cost(level="lob")

@@ -203,20 +203,6 @@ TEST_P(EveryKind, RequiresTheKeysOfItsSchema) {
   }
 }
 
-TEST_P(EveryKind, SurvivesBytesAtRandom) {
-  std::mt19937 random(7);
-  const std::string good = RandomRecords(GetParam(), 2).record().dump();
-  for (int i = 0; i < 300; ++i) {
-    std::string bad = good;
-    for (int k = 0; k < 3; ++k) bad[random() % bad.size()] = char(random());
-    try {
-      GetParam().reread(bad, "r.json");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kInput);
-    }
-  }
-}
-
 /// The only kind that people write, so an editor fetches its schema from the source.
 TEST(Kinds, HaveTheSchemaOfAProjectInTheSource) {
   const std::string file = LOBELIA_SOURCE_DIR "/docs/reference/project.schema.json";
