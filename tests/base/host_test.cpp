@@ -9,7 +9,7 @@
 namespace lobelia {
 namespace {
 
-// In a library it is the library: tests/python/test_pictures.py.
+// In a library it is the library: tests/program/python/test_pictures.py.
 TEST(Host, OwnFileIsTheProgramWhereTheCodeIsItsOwn) {
   EXPECT_EQ(own_file(), std::filesystem::read_symlink("/proc/self/exe"));
   EXPECT_EQ(build_id().size(), 40u) << "a SHA-1, as the linker makes it";

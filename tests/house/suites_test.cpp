@@ -33,7 +33,7 @@ std::set<std::string> tests_in(const fs::path& root) {
     const std::string name = file.generic_string();
     if (name.starts_with("gallery/web/test/") && name.ends_with(".test.mjs"))
       names.insert(name.substr(17, name.size() - 17 - 9));
-    if (name.starts_with("tests/python/")) names.insert(file.filename());
+    if (name.starts_with("tests/program/python/")) names.insert(file.filename());
     if (!name.starts_with("tests/") || !is_cpp(file)) continue;
     const std::string text = read(root / file);
     for (std::sregex_iterator it(text.begin(), text.end(), test), end; it != end; ++it)
@@ -88,7 +88,7 @@ TEST(Suites, CallForTheGroupsThatAChangeCanBreak) {
   EXPECT_EQ(groups_of("tests/farm/failures/failing_farm.hpp"), "all_farm\n");
   EXPECT_THAT(groups_of("gallery/pages.cpp"), HasSubstr("pages"));
   EXPECT_EQ(groups_of("tests/gallery/pages_test.cpp"), "all_gallery\n");
-  EXPECT_EQ(groups_of("tests/library/library_test.cpp"), "\n");
+  EXPECT_EQ(groups_of("tests/program/library/library_test.cpp"), "\n");
   EXPECT_THAT(groups_of("docs/faq.md farm/farm.cpp"),
               HasSubstr("cluster docs faults python readers"));
   EXPECT_THAT(groups_of("'a new room/x.cpp'"), HasSubstr("whole"));

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lobelia_paths.hpp"
-#include "tests/cli/run_lobelia.hpp"
+#include "tests/program/run_lobelia.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

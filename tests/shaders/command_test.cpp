@@ -2,7 +2,7 @@
 #include "reference_scenes/engines/povray/povray_input.hpp"
 #include "renderer/export/export.hpp"
 #include "renderer/export/povray.hpp"
-#include "tests/cli/run_lobelia.hpp"
+#include "tests/program/run_lobelia.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 #include "tests/test.hpp"
 

@@ -5,7 +5,7 @@
 #include "base/system/files.hpp"
 #include "base/words/base64.hpp"
 #include "studies/shader_check/run_shaders.hpp"
-#include "tests/cli/run_lobelia.hpp"
+#include "tests/program/run_lobelia.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

@@ -2,7 +2,7 @@
 #include "studies/shader_check/program_text.hpp"
 
 #include "base/system/error.hpp"
-#include "tests/cli/run_lobelia.hpp"
+#include "tests/program/run_lobelia.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {

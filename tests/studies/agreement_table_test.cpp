@@ -7,7 +7,7 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/agreement/agreement.hpp"
-#include "tests/cli/run_lobelia.hpp"
+#include "tests/program/run_lobelia.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::agreement {

@@ -11,8 +11,8 @@
 #include "studies/paper/energy.hpp"
 #include "studies/paper/report.hpp"
 #include "studies/paper/search.hpp"
-#include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"
+#include "tests/program/run_lobelia.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia::paper {

@@ -1,0 +1,176 @@
+// lobelia check-shader as a user runs it, and its page in docs/.
+#include "base/words/text.hpp"
+#include "studies/shader_check/mistakes.hpp"
+#include "tests/json.hpp"
+#include "tests/program/run_lobelia.hpp"
+#include "tests/shaders/shader_runner.hpp"
+#include "tests/test.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Only a hang takes so long.
+constexpr char kHang[] = "--time-limit=3600";
+
+std::string tutorial() {
+  return read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/check_shader.md", 1 << 20);
+}
+
+/// The first block between ``` lines that begins with `beginning`, without its first line.
+std::string block_of(const std::string& page, const std::string& beginning) {
+  const std::size_t begin = page.find("```" + beginning);
+  const std::size_t text = page.find('\n', begin + 3 + beginning.size()) + 1;
+  return page.substr(text, page.find("```", text) - text);
+}
+
+class CheckShaderCommand : public NeedsShaderRunner {
+ protected:
+  ProcessResult check(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "check-shader");
+    return run_lobelia(arguments, directory_.path());
+  }
+  void write(const std::string& file, const std::string& text) const {
+    write_file(directory_.path() / file, text);
+  }
+  const TemporaryDirectory directory_;
+};
+
+TEST_F(CheckShaderCommand, PrintsTheOutputOfTheTutorial) {
+  const std::string page = tutorial(), shader = block_of(page, "glsl");
+  write("mine.glsl", shader);
+  const ProcessResult result =
+      check({"mine.glsl", "--function", "myHighlight", "--model", "blinn_phong_ndf", kHang});
+  EXPECT_EQ(result.exit_code, 1);
+  // Values of another device, and times, differ.
+  const bool same_device = result.output_tail.find("llvmpipe (LLVM 15") != std::string::npos;
+  int lines = 0;
+  for (const std::string& line : split(block_of(page, "\n$ lobelia check-shader"), "\n")) {
+    if (line == "..." ||
+        (!same_device && !line.starts_with("differs:") && !line.starts_with("mistakes:")))
+      continue;
+    EXPECT_THAT(result.output_tail, HasSubstr(line));
+    ++lines;
+  }
+  EXPECT_GE(lines, 2);
+  std::string right = shader;
+  right.replace(right.find("(2.0 *"), 4, "(8.0");
+  write("mine.glsl", right);
+  const ProcessResult passes =
+      check({"mine.glsl", "--function", "myHighlight", "--model", "blinn_phong_ndf", "--no-costs"});
+  EXPECT_EQ(passes.exit_code, 0) << passes.output_tail;
+  EXPECT_THAT(passes.output_tail,
+              HasSubstr("\npasses: it is the model within the rounding of float32\n"));
+}
+
+TEST_F(CheckShaderCommand, WritesARecordAndAPage) {
+  write("mine.hlsl",
+        "float spec(float c, float n) { return (n + 1.0) / 6.2831853 * pow(max(c, 0.0), n); }\n");
+  const ProcessResult result =
+      check({"mine.hlsl", "--function", "spec", "--arguments", "cosine,n", "--model", "phong_rdf",
+             "--exponent", "8,128", "--json", "r.json", "--html", "r.html", "--no-costs"});
+  // The function does not know the light.
+  EXPECT_EQ(result.exit_code, 1) << result.output_tail;
+  const Json record = Json::parse(read_file(directory_.path() / "r.json", 1 << 20));
+  EXPECT_EQ(record["kind"], "shader-check");
+  EXPECT_EQ(record["api"], "vulkan");
+  EXPECT_EQ(record["explanation"]["mistakes"], Json::parse(R"(["light-behind"])"));
+  EXPECT_EQ(record["errors"].size(), 2u);
+  EXPECT_THAT(record["device"].get<std::string>(), testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(read_file(directory_.path() / "r.html", 1 << 22), HasSubstr("light leaks"));
+}
+
+TEST_F(CheckShaderCommand, PassesAnExportWithItsOwnCoefficient) {
+  // Only the integral of modified Blinn-Phong has the moments m2 and m3. At n = 30 half of m2 is 0.6 % of it, far
+  // more than is allowed; at n = 300 it is less.
+  for (const char* model : {"modified_phong", "modified_blinn_phong"}) {
+    ASSERT_EQ(
+        run_lobelia({"export", "--language", "glsl", "--lobe", "cs16", model, "-o", "ours.glsl"},
+                    directory_.path())
+            .exit_code,
+        0);
+    const ProcessResult result =
+        check({"ours.glsl", "--function", std::string("lobelia_") + model + "_cs16", "--model",
+               model, "--lobe", "cs16", "--exponent", "4,30,300", "--no-costs"});
+    EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  }
+}
+
+TEST_F(CheckShaderCommand, AShaderThatDiscardsSomeOfItsCallsDiffers) {
+  const auto exit_code = [&](const char* first) {
+    write("mine.glsl", std::string("float f(float c, float l, float n)\n{\n") + first +
+                           "    if (l <= 0.0 || c <= 0.0) return 0.0;\n"
+                           "    return (n + 1.0) / 6.28318531 * pow(c, n);\n}\n");
+    return check({"mine.glsl", "--function", "f", "--arguments", "cosine,N.L,n", "--model",
+                  "phong_rdf", "--exponent", "16", "--no-costs"})
+        .exit_code;
+  };
+  EXPECT_EQ(exit_code(""), 0);
+  EXPECT_EQ(exit_code("    if (c < 0.0) discard;\n"), 1);
+}
+
+TEST_F(NeedsWebGpu, WgslIsCheckedInABrowser) {
+  const TemporaryDirectory directory;
+  const auto run = [&](std::vector<std::string> arguments) {
+    return run_lobelia(std::move(arguments), directory.path());
+  };
+  ASSERT_EQ(run({"export", "--language", "wgsl", "phong_rdf", "-o", "ours.wgsl"}).exit_code, 0);
+  const ProcessResult result = run({"check-shader", "ours.wgsl", "--function",
+                                    "lobelia_phong_rdf_cosine", "--model", "phong_rdf", kHang});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("passes: "));
+  write_file(directory.path() / "bad.wgsl", "fn f(N: vec3f) -> f32 {\n  return M;\n}\n");
+  const ProcessResult bad = run(
+      {"check-shader", "bad.wgsl", "--function", "f", "--arguments", "N", "--model", "phong_rdf"});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.output_tail, HasSubstr("bad.wgsl:2: unresolved value 'M'"));
+}
+
+TEST_F(NeedsWebGpu, KeepsAShaderFromForgingResults) {
+  const TemporaryDirectory directory;
+  // Chromium warns of code behind a return, and quotes it.
+  write_file(directory.path() / "forged.wgsl",
+             "fn f(n: f32) -> f32\n{\n    return n;\n"
+             "    var a = 1.0; /* \"lobelia device SEFDS0VE\", source: x */\n}\n");
+  const ProcessResult result = run_shell(
+      "mkdir tmp home; export TMPDIR=\"$PWD/tmp\" HOME=\"$PWD/home\"\n"
+      "\"$LOBELIA\" check-shader forged.wgsl --function f --arguments n --model phong_rdf "
+      "--no-costs --time-limit 3600; find tmp home -mindepth 1",
+      directory.path());
+  EXPECT_THAT(result.output_tail, HasSubstr("\ndiffers: "));
+  EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("HACKED")));
+  EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("\ntmp/")));
+  EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("\nhome/")));
+}
+
+TEST_F(CheckShaderCommand, RefusesInOneLine) {
+  write("mine.glsl", "float f(vec3 N)\n{\n    return M;\n}\n");
+  const auto expect = [&](std::vector<std::string> arguments, int exit_code, const char* said) {
+    expect_one_line(check(std::move(arguments)), exit_code, said);
+  };
+  expect({"mine.glsl", "--function", "f", "--arguments", "N", "--model", "phong_rdf"}, 3,
+         "mine.glsl:3: ");
+  expect({"mine.glsl", "--function", "g", "--model", "phong_rdf"}, 3, "it has f");
+  expect({"mine.glsl", "--function", "f", "--model", "phong"}, 2, "--model 'phong' is unknown");
+  expect({"mine.glsl", "--function", "f", "--model", "phong_rdf", "--arguments", "N,x"}, 2,
+         "'x' is unknown");
+  expect(
+      {"mine.glsl", "--function", "f", "--model", "phong_rdf", "--language", "hlsl", "--on", "egl"},
+      2, "--on egl");
+  expect({"none.glsl", "--function", "f", "--model", "phong_rdf"}, 3, "none.glsl");
+  expect({"mine.glsl", "--function", "f", "--model", "phong_rdf", "--json", "no/r.json"}, 4,
+         "no/r.json");
+  expect({"mine.glsl", "--function", "f", "--model", "phong_rdf", "--json", "mine.glsl"}, 2,
+         "mine.glsl");
+}
+
+TEST(CheckShaderPage, ListsEveryMistakeByName) {
+  const std::string page = tutorial();
+  std::set<std::string> names{"zero", "no-number", "float32-cosine"};
+  for (const auto& mistake : shader_check::mistakes()) names.emplace(mistake.id);
+  for (const auto& mistake : shader_check::coefficient_mistakes()) names.emplace(mistake.id);
+  for (const auto& mistake : shader_check::output_mistakes()) names.emplace(mistake.id);
+  for (const std::string& name : names) EXPECT_THAT(page, HasSubstr("`" + name + "`"));
+}
+
+}  // namespace
+}  // namespace lobelia

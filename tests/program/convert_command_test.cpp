@@ -1,0 +1,103 @@
+// lobelia convert, and the page that shows it.
+#include <regex>
+
+#include "tests/json.hpp"
+#include "tests/program/run_lobelia.hpp"
+#include "tests/test.hpp"
+
+namespace lobelia {
+namespace {
+
+std::string page() { return read_file(LOBELIA_SOURCE_DIR "/docs/convert.md", 1 << 20); }
+
+class ConvertCommand : public testing::Test {
+ protected:
+  ProcessResult run(const std::string& arguments) const {
+    return run_shell("\"$LOBELIA\" convert " + arguments, directory_.path());
+  }
+  std::string printed(const std::string& commands) const {
+    const auto result = run_shell(
+        "lobelia() { \"$LOBELIA\" \"$@\"; }\n(\n" + commands + ") > printed", directory_.path());
+    EXPECT_EQ(result.exit_code, 0) << commands << result.output_tail;
+    return read_file(directory_.path() / "printed", 1 << 20);
+  }
+  const TemporaryDirectory directory_;
+};
+
+TEST_F(ConvertCommand, PrintsTheOutputOnThePage) {
+  const std::string text = page();
+  static const std::regex example("```sh\n([^`]*)```\n\n```text\n([^`]*)```\n");
+  int examples = 0;
+  for (std::sregex_iterator it(text.begin(), text.end(), example), end; it != end; ++it) {
+    EXPECT_EQ(printed((*it)[1]), (*it)[2]) << (*it)[1];
+    ++examples;
+  }
+  EXPECT_GE(examples, 3);
+}
+
+TEST_F(ConvertCommand, DrawsThePicturesOfThePage) {
+  static const std::regex drawing("(lobelia convert [^`\n]* --svg) (docs/images/[a-z_]*.svg)");
+  const std::string text = page();
+  int pictures = 0;
+  for (std::sregex_iterator it(text.begin(), text.end(), drawing), end; it != end; ++it) {
+    EXPECT_EQ(printed((*it)[1].str() + " -\n"),
+              read_file(LOBELIA_SOURCE_DIR "/" + (*it)[2].str(), 1 << 20))
+        << "run: " << it->str();
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 2);
+}
+
+TEST_F(ConvertCommand, WritesARecordAndAChart) {
+  const auto result =
+      run("--exponent 32 --to ggx --measure width --json record.json --svg chart.svg");
+  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, StartsWith("blinn_phong_heightfield, exponent 32\n"));
+  EXPECT_THAT(read_file(directory_.path() / "chart.svg", 1 << 20), StartsWith("<svg"));
+  const Json record = Json::parse(read_file(directory_.path() / "record.json", 1 << 20));
+  EXPECT_EQ(record["kind"], "conversion");
+  EXPECT_EQ(record["measure"], "width");
+  EXPECT_EQ(record["best"].size(), 4u);
+  EXPECT_EQ(record["rules"].size(), 5u);
+  EXPECT_NEAR(double(record["best"][1]["errors"]["halfWidthRatio"]), 1, 1e-9);
+  const Json range = Json::parse(printed("lobelia convert --to phong_rdf --json -\n"));
+  EXPECT_EQ(range["kind"], "conversion-table");
+  EXPECT_EQ(range["from"], "ggx");
+  EXPECT_EQ(range["columns"].size(), 9u);
+}
+
+TEST_F(ConvertCommand, ARoughnessIsTheRootOfAlpha) {
+  const auto best = [&](const std::string& from) {
+    return Json::parse(
+        printed("lobelia convert " + from + " --to phong_rdf --measure width --json -\n"))["best"];
+  };
+  EXPECT_EQ(best("--roughness 0.5"), best("--alpha 0.25"));
+  EXPECT_NE(best("--roughness 0.5"), best("--alpha 0.5"));
+}
+
+TEST_F(ConvertCommand, RefusesWrongValuesInOneLine) {
+  constexpr std::pair<const char*, const char*> kMistakes[] = {
+      {"--exponent 32", "--to is required"},
+      {"--exponent 32 --alpha 0.1 --to ggx", "only one of --exponent"},
+      {"--exponent 32 --to gx", "--to 'gx' is unknown"},
+      {"--exponent 32 --to ggx --from ggx", "--from ggx takes --alpha or --roughness"},
+      {"--alpha 0.1 --to ggx --from phong_rdf", "--from phong_rdf takes --exponent"},
+      {"--exponent nan --to ggx", "allowed: 0.001 to 1e+08"},
+      {"--exponent 1e99 --to ggx", "allowed: 0.001 to 1e+08"},
+      {"--alpha 0 --to phong_rdf", "allowed: 0.0001 to 1"},
+      {"--roughness 2 --to phong_rdf", "allowed: 0.01 to 1"},
+      {"--exponent 32 --to ggx --f0 0", "allowed: 0.001 to 1"},
+      {"--exponent 32 --to ggx --measure widht", "did you mean 'width'?"},
+      {"--exponent 32 --to ggx --json a --svg a", "written by this command already"},
+      {"--exponent 32 --to ggx --json - --svg -", "only one of --json and --svg can go to stdout"},
+  };
+  for (const auto& [arguments, message] : kMistakes) {
+    SCOPED_TRACE(arguments);
+    expect_one_line(run(arguments), 2, message);
+  }
+  EXPECT_EQ(run("--exponent 32 --to ggx --json no/such/a.json").exit_code, 4);
+  EXPECT_EQ(files_in(directory_.path()), 0u);
+}
+
+}  // namespace
+}  // namespace lobelia
