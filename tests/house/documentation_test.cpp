@@ -1,6 +1,5 @@
-// The pages: what they say of the source, where every link and anchor leads, the index of docs/, the beginning of README,
+// The pages: what they say of the source, where every link leads, the index of docs/, the beginning of README,
 // and the site that `make docs` makes of them.
-#include <cctype>
 #include <regex>
 
 #include "lobelia_paths.hpp"
@@ -74,72 +73,31 @@ std::string prose(const std::string& page) {
   return result;
 }
 
-/// The anchor that GitHub gives a heading.
-std::string anchor(const std::string& heading) {
-  static const std::regex link(R"re(\[([^\]]*)\]\([^)]*\))re");
-  std::string result;
-  for (const char c : std::regex_replace(heading, link, "$1")) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (c == ' ')
-      result += '-';
-    else if (byte >= 0x80 || std::isalnum(byte) || c == '-' || c == '_')
-      result += static_cast<char>(std::tolower(byte));
-  }
-  return result;
-}
-
-std::set<std::string> anchors(const std::string& page) {
-  static const std::regex heading("#{1,6} +(.*[^ ]) *"), named(R"re(<a (?:id|name)="([^"]+)")re");
-  std::set<std::string> result;
-  const std::string text = prose(page);
-  std::smatch match;
-  for (const std::string& line : lines(text)) {
-    if (!std::regex_match(line, match, heading)) continue;
-    const std::string name = anchor(match[1]);
-    // A heading that is there already gets a number.
-    std::string unique = name;
-    for (int i = 1; !result.insert(unique).second; ++i) unique = name + "-" + std::to_string(i);
-  }
-  for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it)
-    result.insert((*it)[1]);
-  return result;
-}
-
-struct Link {
-  std::string file, anchor;
-};
-
-/// To files of the project; `file` is empty for the page itself.
-std::vector<Link> links(const std::string& page) {
-  static const std::regex link(R"re(\]\(([^)#\s]*)(?:#([^)\s]*))?\))re"), span("`[^`\n]*`");
+/// To files of the project. `make docs` looks at anchors.
+std::vector<std::string> links(const std::string& page) {
+  static const std::regex link(R"re(\]\(([^)#\s]+)(?:#[^)\s]*)?\))re"), span("`[^`\n]*`");
   const std::string text = std::regex_replace(prose(page), span, "`");
-  std::vector<Link> result;
+  std::vector<std::string> result;
   for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
     const std::string file = (*it)[1];
-    if (file.find("://") == file.npos && !file.starts_with("mailto:"))
-      result.push_back({file, (*it)[2]});
+    if (file.find("://") == file.npos && !file.starts_with("mailto:")) result.push_back(file);
   }
   return result;
 }
 
 Problems dead_links(const fs::path& root, const fs::path& page) {
   Problems problems;
-  for (const Link& link : links(read(root / page))) {
-    const fs::path target = link.file.empty() ? root / page : root / page.parent_path() / link.file;
-    if (!fs::exists(target))
-      problems.push_back(page.string() + ": " + link.file);
-    else if (!link.anchor.empty() && target.extension() == ".md" &&
-             !anchors(read(target)).contains(link.anchor))
-      problems.push_back(page.string() + ": " + link.file + "#" + link.anchor);
-  }
+  for (const std::string& file : links(read(root / page)))
+    if (!fs::exists(root / page.parent_path() / file))
+      problems.push_back(page.string() + ": " + file);
   return problems;
 }
 
 /// Pages of docs/ that docs/README.md does not link.
 Problems pages_out_of_the_index(const fs::path& root) {
   std::set<fs::path> linked;
-  for (const Link& link : links(read(root / "docs/README.md")))
-    linked.insert((fs::path("docs") / link.file).lexically_normal());
+  for (const std::string& file : links(read(root / "docs/README.md")))
+    linked.insert((fs::path("docs") / file).lexically_normal());
   Problems problems;
   for (const fs::path& file : project_files(root))
     if (file.extension() == ".md" && *file.begin() == "docs" && file != "docs/README.md" &&
@@ -148,7 +106,7 @@ Problems pages_out_of_the_index(const fs::path& root) {
   return problems;
 }
 
-TEST(Links, LeadToFilesAndAnchorsThatExist) {
+TEST(Links, LeadToFilesThatExist) {
   int pages = 0;
   for (const fs::path& file : project_files(kRoot)) {
     if (file.extension() != ".md") continue;

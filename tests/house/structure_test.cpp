@@ -178,39 +178,13 @@ TEST(Words, NameNoPathOfADevelopersMachine) { EXPECT_THAT(paths_of_a_machine(kRo
 
 // ---- what the pages promise
 
-/// Commands in a page: lines of ``` blocks, without a leading "$ ", and `...` spans.
-std::vector<std::string> commands(const std::string& page) {
-  std::vector<std::string> result;
-  bool block = false;
-  static const std::regex span("`([^`]+)`");
-  for (std::string line : lines(page)) {
-    if (line.starts_with("```")) {
-      block = !block;
-    } else if (block || line.starts_with("    ")) {
-      line.erase(0, line.find_first_not_of(" $"));
-      result.push_back(line);
-    } else {
-      for (std::sregex_iterator it(line.begin(), line.end(), span), end; it != end; ++it)
-        result.push_back((*it)[1]);
-    }
-  }
-  return result;
-}
-
-/// The words after `program` in its commands, up to the first that is no plain word.
-std::set<std::string> words_after(const std::string& program, const std::string& page) {
+/// The targets of make that a page names, in a line or a span of code.
+std::set<std::string> named_targets(const std::string& page) {
+  static const std::regex command("(?:^ *|`)make ([a-z][a-z_-]*)");
   std::set<std::string> result;
-  static const std::regex word("[a-z][a-z_-]*");
-  for (const std::string& command : commands(page)) {
-    std::istringstream in(command);
-    std::string first, next;
-    in >> first;
-    if (first != program) continue;
-    while (in >> next && std::regex_match(next, word)) {
-      result.insert(next);
-      if (program != "make") break;
-    }
-  }
+  for (const std::string& line : lines(page))
+    for (std::sregex_iterator it(line.begin(), line.end(), command), end; it != end; ++it)
+      result.insert((*it)[1]);
   return result;
 }
 
@@ -228,9 +202,9 @@ const std::vector<std::string> kPages = {"README.md", "CONTRIBUTING.md"};
 TEST(Pages, NameOnlyTargetsOfMake) {
   const auto targets = make_targets(read(kRoot / "Makefile"));
   for (const std::string& page : kPages)
-    for (const std::string& target : words_after("make", read(kRoot / page)))
+    for (const std::string& target : named_targets(read(kRoot / page)))
       EXPECT_TRUE(targets.contains(target)) << page << " says make " << target;
-  const auto promised = words_after("make", read(kRoot / "README.md"));
+  const auto promised = named_targets(read(kRoot / "README.md"));
   for (const char* target : {"gallery", "test", "build", "bench", "lint", "clean"})
     EXPECT_TRUE(promised.contains(target)) << "README.md does not mention make " << target;
 }
