@@ -43,8 +43,7 @@ constexpr auto kKinds =
              ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport, FarmRun,
              FarmStatus, KnownHashes, GalleryList, HighlightTables, LobeSearch, Models, Plan,
              Profile, Profiles, Project, Reference, Render, Result, Scene, Sensitivity, ShaderCheck,
-             SlurmRun, VerifyHighlights, VerifyPaper, VerifyProfiles, VerifyStability,
-             VerifyVerdicts>();
+             SlurmRun, VerifyPaper, VerifyProfiles, VerifyStability, VerifyVerdicts>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {

@@ -285,18 +285,13 @@ void keep_rows_outside(records::VerifyStability& report) {
 }
 
 std::string report_text(const records::VerifyStability& report, bool all) {
-  std::string text =
+  const std::string text =
       all ? rows_text(report.rows)
           : summary_text(report.by_lobe, "worst of each lobe", &records::StabilityOfLobe::lobe) +
                 "\n" +
                 summary_text(report.by_case, "worst of each case",
                              &records::StabilityOfCase::name) +
                 digits(report.rows);
-  for (const records::StabilityPictures& p : report.pictures)
-    text += fmt::format(
-        "\nclose to a highlight of n = {:g}: naive off by {:.2g} of the peak, ours by {:.2g}",
-        p.exponent, p.naive.largest_error_of_peak, p.ours.largest_error_of_peak);
-  if (!report.pictures.empty()) text += "\n";
   return text + fmt::format("\n{} cases: {} within their bounds, {} outside, {} not compared\n",
                             report.cases, report.cases - report.outside - report.not_compared,
                             report.outside, report.not_compared);
