@@ -165,7 +165,6 @@ ExitCode run_verify_references(const VerifyReferencesArguments& options) {
   FilesTogether files;
   if (!options.output.empty()) {
     write_record(directory / "agreement.json", record);
-    write_file(directory / "agreement.csv", agreement::report_csv(result));
     write_file(directory / "agreement.md", page);
   }
   write_reports(options.markdown ? page : agreement::report_text(result),
@@ -180,7 +179,7 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyReferencesArguments>();
   OptionGroup group(*command);
   add_common(group, "--output", options->output,
-             ": agreement.json (kind agreement), agreement.csv and agreement.md", "DIR");
+             ": agreement.json (kind agreement) and agreement.md", "DIR");
   group.add_flag("--small", options->small, "A part of it that takes less than a minute");
   group.add("--size", options->size, "", "Width of pictures; usually 96, with --small 64")
       ->check(between(agreement::kSmallestSize, agreement::kLargestSize));
