@@ -23,7 +23,6 @@ constexpr char kRecord[] = "cost/cost.json", kCsv[] = "cost/cost.csv";
 constexpr char kTitle[] = "What accuracy costs in time";
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kChartWidth = 800;          // beside a table
-constexpr int kNarrowWidth = 380;         // on a phone
 constexpr std::size_t kMostNamed = 12;    // points that all have their name, and not a number
 constexpr std::size_t kMaxSentences = 8;  // about a front; the rest can be unfolded
 
@@ -88,7 +87,7 @@ bool is_on_front(const CostTable& table, const CostError& error, const CostVaria
   return front && std::ranges::find(front->variants, variant.name) != front->variants.end();
 }
 
-Chart chart_of(const CostTable& table, const CostError& error, const std::string& id, bool narrow) {
+Chart chart_of(const CostTable& table, const CostError& error, const std::string& id) {
   ErrorTimes times{id, math_text(table.title), table.per, "", math_text(error.meaning), {}};
   int row = 0;
   for (const CostVariant* one : in_order(table)) {
@@ -97,27 +96,21 @@ Chart chart_of(const CostTable& table, const CostError& error, const std::string
     const std::string name = spoken_name(variant.name), place = std::to_string(++row);
     const bool named = table.variants.size() <= kMostNamed;
     times.points.push_back(
-        {named    ? name
-         : narrow ? place
-                  : place + " " + name,
+        {named ? name : place + " " + name,
          fmt::format("{} {}: {}, {}, {} {}", place, name, short_time_text(time),
                      spread_text(variant), short_title(table, error), error_text(value)),
          time, variant.seconds.spread * time, value, error_spread_of(variant, error),
          is_on_front(table, error, variant), variant.name, named ? name : place});
   }
   Chart chart = error_time_chart(times);
-  chart.width = narrow ? kNarrowWidth : kChartWidth;
-  if (narrow && times.points.size() > kMostNamed) {  // as many points need room for their numbers
-    chart.height = std::min(720, 400 + 5 * int(times.points.size()));
-    chart.marker_radius = 3;
-  }
+  chart.width = kChartWidth;
   return chart;
 }
 
 /// A point alone shows nothing.
 bool is_drawable(const CostTable& table, const CostError& error) {
   std::size_t points = 0;
-  for (const ChartSeries& series : chart_of(table, error, "", false).series)
+  for (const ChartSeries& series : chart_of(table, error, "").series)
     points += series.markers ? series.x.size() : 0;
   return points > 1;
 }
@@ -202,7 +195,6 @@ void write_ways(Html& html, const CostTable& table) {
   }
 }
 
-/// The chart for screens and for phones.
 void write_chart(Html& html, const CostTable& table, std::size_t number, std::size_t e) {
   const CostError& error = table.errors[e];
   const std::string id = fmt::format("cost-{}-{}", number, e), title = short_title(table, error);
@@ -210,10 +202,7 @@ void write_chart(Html& html, const CostTable& table, std::size_t number, std::si
       html, "figure",
       {{"class", "chart-figure"}, {"data-name", table.id + "-" + error.id}, {"data-title", title}});
   html.element("h3", math_text(error.meaning));
-  for (const bool narrow : {false, true}) {
-    const Tag box(html, "div", {{"class", narrow ? "narrow" : "wide"}});
-    html.raw(draw_chart(chart_of(table, error, narrow ? id + "-narrow" : id, narrow)));
-  }
+  html.raw(draw_chart(chart_of(table, error, id)));
 }
 
 /// One chart, and those by the other errors below it.

@@ -161,10 +161,10 @@ test('paper: claims by verdict and words, and a link to one shows it', async () 
 
 test('cost: a variant under the pointer is marked in chart and table', async () => {
   const page = await view('cost');
-  const marked = () => page.locator('tr.marked, .wide .marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
+  const marked = () => page.locator('tr.marked, g.marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
   await page.locator('tr[data-key=slow]').hover();
   assert.deepEqual(await marked(), ['TR slow', 'g slow']);
-  await page.locator('.wide g.point[data-key=quick]').hover();
+  await page.locator('g.point[data-key=quick]').hover();
   assert.deepEqual(await marked(), ['TR quick', 'g quick']);
   await page.mouse.move(0, 0);
   assert.deepEqual(await marked(), []);
@@ -188,30 +188,13 @@ test('no page has a formula as it is typed, or a path of the machine that made t
 test('cost: is read on a phone, and its chart is a figure', async () => {
   const page = await view('cost', '', { viewport: { width: 390, height: 800 }, acceptDownloads: true });
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the screen');
-  assert.equal(await page.locator('.wide svg.chart').first().isVisible(), false);
-  const small = await page.locator('.narrow svg.chart').first().evaluate((chart) => Math.min(...[...chart.querySelectorAll('text')].map((t) => parseFloat(getComputedStyle(t).fontSize))) * chart.clientWidth / chart.viewBox.baseVal.width);
+  const small = await page.locator('.chart-figure svg.chart').first().evaluate((chart) => Math.min(...[...chart.querySelectorAll('text')].map((t) => parseFloat(getComputedStyle(t).fontSize))) * chart.clientWidth / chart.viewBox.baseVal.width);
   assert.ok(small > 10, `the smallest letters have ${small} pixels`);
-  await page.locator('.narrow .figure-button').first().click();
+  await page.locator('.chart-figure .figure-button').first().click();
   const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: /^CSV/ }).click()]);
   assert.equal(download.suggestedFilename(), 'cost-lobe-max.csv');
   const lines = readFileSync(await download.path(), 'utf8').trim().split('\n');
   assert.equal(lines.length, 5);
   assert.ok(lines.includes('quick,1,0.1'), lines.join('\n'));
-  await close(page);
-});
-
-test('search: the slider shows one exponent at a time, the whole range first', async () => {
-  const page = await view('search');
-  const shown = page.locator('figure[data-exponent]:visible');
-  assert.equal(await shown.count(), 1);
-  const first = await shown.getAttribute('data-exponent');
-  const slider = page.getByRole('slider');
-  await slider.focus();
-  await page.keyboard.press('ArrowRight');
-  assert.equal(await shown.count(), 1);
-  assert.notEqual(await shown.getAttribute('data-exponent'), first);
-  await slider.press('Home');
-  assert.equal(await shown.getAttribute('data-exponent'), first);
-  assert.equal(await slider.getAttribute('aria-valuetext'), first);
   await close(page);
 });
