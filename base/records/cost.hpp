@@ -29,7 +29,7 @@ struct CostVariant {
   Named<std::string> settings;
   Named<double> errors;
   MeasuredRounds seconds;
-  std::optional<Named<double>> error_spreads, errors_at_most;
+  std::optional<Named<double>> error_spreads;
   std::optional<CostFacts> facts;
 };
 

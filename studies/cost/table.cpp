@@ -35,14 +35,8 @@ const double* value_of(const std::optional<records::Named<double>>& values, cons
   return values ? records::find(*values, table.errors[error].id) : nullptr;
 }
 
-/// Both ends, where they are not the same in print.
-std::string error_text(const Table& table, const Variant& variant, std::size_t e) {
-  const double error = variant.errors[e].second;
-  if (std::isnan(error)) return "-";
-  const std::string found = fmt::format("{:.3g}", error);
-  const double* bound = value_of(variant.errors_at_most, table, e);
-  const std::string most = bound ? fmt::format("{:.3g}", *bound) : found;
-  return most == found ? found : found + ".." + most;
+std::string error_text(double error) {
+  return std::isnan(error) ? "-" : fmt::format("{:.3g}", error);
 }
 
 std::string one_table_text(const Table& table, bool all) {
@@ -64,7 +58,7 @@ std::string one_table_text(const Table& table, bool all) {
            fmt::format("{:.1f}%", 100 * variant->seconds.spread)};
     std::string on;
     for (std::size_t e = 0; e < table.errors.size(); ++e) {
-      row.push_back(error_text(table, *variant, e));
+      row.push_back(error_text(variant->errors[e].second));
       if (on_front(table, e, *variant)) on += (on.empty() ? "" : " ") + table.errors[e].id;
     }
     row.push_back(on);
@@ -150,7 +144,7 @@ std::string cost_csv(const records::Cost& report) {
   studies::Table lines;
   for (const char* column :
        {"table", "level", "way", "settings", "per", "unit", "median", "spread", "least", "most",
-        "rounds", "error", "value", "error_spread", "on_front", "at_most"})
+        "rounds", "error", "value", "error_spread", "on_front"})
     lines.columns.push_back({column});
   const auto if_any = [](const double* value) { return value ? studies::Cell(*value) : ""; };
   for (const Table& table : report.tables)
@@ -164,8 +158,7 @@ std::string cost_csv(const records::Cost& report) {
                               cost.median, cost.spread, cost.least, cost.most, cost.rounds,
                               table.errors[e].id, variant.errors[e].second,
                               if_any(value_of(variant.error_spreads, table, e)),
-                              on_front(table, e, variant) ? "yes" : "no",
-                              if_any(value_of(variant.errors_at_most, table, e))});
+                              on_front(table, e, variant) ? "yes" : "no"});
       }
   return table_csv(lines, "\r\n");
 }
