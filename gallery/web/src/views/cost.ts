@@ -1,9 +1,8 @@
 // The page on cost: pointing at a variant marks it in its table and in all charts of that table.
-import { h } from '../lib/dom';
-import { drawnChartButton } from '../lib/drawn_chart';
+import { addDrawnChartButtons } from '../lib/drawn_chart';
 
 export function cost(main: HTMLElement): void {
-  for (const chart of main.querySelectorAll<SVGSVGElement>('svg.chart')) chart.after(h('div', { class: 'chart-foot' }, drawnChartButton(chart)));
+  addDrawnChartButtons(main);
   for (const section of main.querySelectorAll<HTMLElement>('section[id^="table-"]')) {
     const details = section.querySelector<HTMLDetailsElement>('details.variants');
     if (details) details.open = true;
