@@ -42,6 +42,14 @@ TEST(LobeVariants, CoverEveryLobeInEveryPrecision) {
   }
 }
 
+TEST(LobeVariants, StayWithinTheirAllowedRounding) {
+  for (const double exponent : {16.0, 1e6}) {
+    const LobeTruth truth(exponent);
+    for (const LobeVariant& variant : lobe_variants(exponent))
+      EXPECT_NO_THROW(truth.errors(variant)) << variant.name();
+  }
+}
+
 TEST(LobeErrors, AreThePapersAndTheIntegralsForCs16) {
   for (const char* name : {"cs16, stable, float64", "cs16, stable, float64 SIMD",
                            "cs16, stable, float32 SIMD", "cs16, textbook, float32"}) {
