@@ -9,7 +9,6 @@ SETUP  ?= yes
 FUZZ_SECONDS ?= 60
 MINUTES ?= 10
 PREFIX  ?= /usr/local
-BENCH   ?= out/bench.json
 BASE    ?= HEAD
 SEED    ?= $(shell date +%s)
 
@@ -105,8 +104,7 @@ bench: ## measures each goal of speed beside what it is held to, in one table; Q
 	$(npm)
 	$(configure)
 	$(build) --target lobelia lobelia_image_io bench_goals
-	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick) \
-	    --commit "$$(git describe --always --dirty=+ --exclude='*')" --committed "$$(git log -1 --format=%cs)" --keep "$(BENCH)"
+	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick)
 
 bench-compare: ## what became slower or faster since the commit BASE, both builds in turn
 	$(setup) build
