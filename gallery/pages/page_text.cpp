@@ -83,7 +83,7 @@ struct Rule {
 }  // namespace
 
 std::string math_text(std::string_view text) {
-  static const std::array<Rule, 14> kRules{{{std::regex(R"(\bsqrt\((\w{1,40})\))"), "√$1"},
+  static const std::array<Rule, 15> kRules{{{std::regex(R"(\bsqrt\((\w{1,40})\))"), "√$1"},
                                             {std::regex(R"(\bsqrt\()"), "√("},
                                             {std::regex(R"(\bpi\b)"), "π"},
                                             {std::regex(R"(\btheta(_cr)?\b)"), "θ$1"},
@@ -97,7 +97,8 @@ std::string math_text(std::string_view text) {
                                             {std::regex(R"((\d)\.\.(?=\d))"), "$1 to "},
                                             {std::regex(R"((\d) us\b)"), "$1 µs"},
                                             {std::regex(" - "), " − "},
-                                            {std::regex(R"((^|[ /(])-(?=\d|\w\W))"), "$1−"}}};
+                                            {std::regex(R"((^|[ /])-(?=\d))"), "$1−"},
+                                            {std::regex(R"(\(-(?=\w))"), "(−"}}};
   constexpr std::size_t kLongest = 10'000;  // of a text that has formulas
   if (text.size() > kLongest) return std::string(text);
   std::string shown = with_raised(with_powers_of_ten(std::string(text)));

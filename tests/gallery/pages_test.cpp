@@ -293,7 +293,7 @@ TEST(PageText, SetsFormulasAsTheyArePrinted) {
       {"n >= 16, n = 16..1024, 48 x 48", "n ≥ 16, n = 16 to 1024, 48 × 48"},
       {"parse 286 us", "parse 286 µs"},
       {"4 pi where N.L = 1", "4 π where N·L = 1"},
-      {"a-b.c, e-mail, 1.5, v2.0e", "a-b.c, e-mail, 1.5, v2.0e"}};
+      {"a-b.c, e-mail, -q x, 1.5, v2.0e", "a-b.c, e-mail, -q x, 1.5, v2.0e"}};
   for (const auto& [record, page] : cases) EXPECT_EQ(math_text(record), page);
 }
 
