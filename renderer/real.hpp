@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pictures/half.hpp"
-
 namespace lobelia {
 
 /// `value` where a < b, else 0, even where `value` is NaN.
@@ -43,18 +41,6 @@ template <>
 struct ScalarOf<double> {
   using Type = double;
 };
-
-// For half floats. Functions that no processor has are rounded once, as exp and log are.
-
-inline Half where_less(Half a, Half b, Half value) { return a < b ? value : Half(0); }
-/// Not 0 for subnormal numbers, which are part of what is emulated.
-inline Half exp_or_zero(Half x) { return exp(x); }
-inline Half log_one_minus(Half s) { return log_one_minus(double(s)); }
-inline Half half_square_of_angle(Half s) { return half_square_of_angle(double(s)); }
-/// With two roundings: `a * b + c` in a shader may be either.
-inline Half multiply_add(Half a, Half b, Half c) { return a * b + c; }
-/// q is a half float too: a product with more digits would be one of another precision.
-inline Half one_minus_product(double q, Half s) { return 1 - q * s; }
 
 /// The smallest u with a normal number u^k of that type.
 template <class Scalar>

@@ -93,10 +93,9 @@ void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
   group.add_flag("--all", options->all, "Print and record every case, not the worst alone");
   options->limits.add_to(group);
   command->footer(
-      "naive is the textbook formula in float32 without care; in the group float16 naive and ours are\n"
-      "in emulated half floats, n = 8 to 1024. 'of peak' is the error relative to the highlight's\n"
-      "middle, 'ulp' that in units in the last place that float32 has at the true value, 'pixels' are\n"
-      "those that show the wrong sphere, none, or no number.\n"
+      "naive is the textbook formula in float32 without care. 'of peak' is the error relative to the\n"
+      "highlight's middle, 'ulp' that in units in the last place that float32 has at the true value,\n"
+      "'pixels' are those that show the wrong sphere, none, or no number.\n"
       "docs/numerics.md has the bounds and why they hold.\n"
       "\n"
       "Where no bound below the whole peak is stated, a case is counted as not compared.\n"

@@ -69,8 +69,6 @@ constexpr Meaning kMeanings[] = {
     {"spheres", "light behind", "The light grazes the silhouette."},
     {"spheres", "camera inside", "Spheres are seen from outside only."},
     {"spheres", "tangent ray", "Rays that touch a sphere, and the next numbers on either side."},
-    {"float16", "",
-     "All in half floats, as on a phone, and the textbook too: its cosine has lost the angle, its power may exceed 1."},
     {"precision", "",
      "1e5 random vectors and the worst of them made worse, against the stated bound."},
 };
@@ -238,8 +236,7 @@ std::string digits(const Rows& rows) {
 
 Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress) {
   std::vector<std::function<Rows()>> jobs;
-  for (const auto rows_of :
-       {lobe_rows, coefficient_rows, vector_rows, density_rows, float16_rows, sphere_rows})
+  for (const auto rows_of : {lobe_rows, coefficient_rows, vector_rows, density_rows, sphere_rows})
     for (const LobeId& lobe : lobes) jobs.push_back([rows_of, lobe] { return rows_of(lobe); });
   for (const double n : kExponents)
     jobs.push_back([&lobes, n] { return precision_rows(lobes, n); });
