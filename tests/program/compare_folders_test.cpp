@@ -21,6 +21,24 @@ class CompareFolders : public ComparePictures {
     for (int x = 0; x < width; ++x) image.pixel(x, 3)[1] = value * float(x);
     write_exr(path(name), image, {});
   }
+  /// All names, links not followed, and each file's bytes.
+  std::map<std::string, std::string> contents() const {
+    std::map<std::string, std::string> result;
+    for (const auto& entry : fs::recursive_directory_iterator(directory_.path()))
+      result[entry.path().string()] =
+          entry.is_regular_file() ? read_file(entry.path(), 1 << 20) : "";
+    return result;
+  }
+  /// The comparison would write over what it reads. It says so and changes nothing.
+  void expect_refused(const std::vector<std::string>& arguments,
+                      const char* why = "is read or written by this command already") {
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    const auto before = contents();
+    const auto result = compare(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.output_tail;
+    EXPECT_THAT(result.output_tail, HasSubstr(why));
+    EXPECT_EQ(contents(), before);
+  }
 };
 
 TEST_F(CompareFolders, GoOnPastAnIncomparablePair) {
@@ -131,15 +149,6 @@ TEST_F(CompareFolders, WriteADifferenceAsColoursOrAsValues) {
   EXPECT_EQ(write({"no/such/d.png"}), 4);
 }
 
-/// Names below a folder, links not followed, and each file's bytes.
-std::map<std::string, std::string> contents(const fs::path& root) {
-  std::map<std::string, std::string> result;
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    result[entry.path().lexically_relative(root).string()] =
-        entry.is_regular_file() ? read_file(entry.path(), 1 << 20) : "";
-  return result;
-}
-
 TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   for (const char* folder : {"a/", "b/", "c/", "error/", "half/", "a/deep/", "out/"}) {
     fs::create_directories(path(folder));
@@ -149,14 +158,9 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   }
   put("b/deep/x.exr", 0.1f);
   fs::create_directory_symlink("b", path("other_b"));
-  const auto before = contents(directory_.path());
-  const std::vector<std::string> plain{"a", "b", "--also-accept", "c"};
   const auto refused = [&](std::vector<std::string> more, const char* why) {
-    more.insert(more.begin(), plain.begin(), plain.end());
-    const auto result = compare(more);
-    EXPECT_EQ(result.exit_code, 2) << ::testing::PrintToString(more) << result.output_tail;
-    EXPECT_THAT(result.output_tail, HasSubstr(why));
-    EXPECT_EQ(contents(directory_.path()), before) << ::testing::PrintToString(more);
+    more.insert(more.begin(), {"a", "b", "--also-accept", "c"});
+    expect_refused(more, why);
   };
   const char* inside = "which is read by this command; choose a folder outside it";
   for (const char* folder :
@@ -176,30 +180,20 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
 TEST_F(CompareFolders, WriteNoDifferenceOverALinkedPicture) {
   put("a/x.exr", 0.1f), put("b/x.exr", 0.2f), put("a/deep/x.exr", 0.1f), put("b/deep/x.exr", 0.2f);
   put("error.exr", 0.1f);
-  const auto refused = [&](const std::string& out, std::vector<std::string> more) {
-    const auto before = contents(directory_.path());
-    more.insert(more.begin(), {"a", "b", "--diff-image", out});
-    const auto result = compare(more);
-    EXPECT_EQ(result.exit_code, 2) << out << result.output_tail;
-    EXPECT_THAT(result.output_tail, HasSubstr("is read or written by this command already"));
-    EXPECT_EQ(contents(directory_.path()), before) << out;
-  };
   fs::create_directories(path("soft")), fs::create_directories(path("hard"));
   fs::create_symlink(path("a/x.exr"), path("soft/x.exr.png"));
   fs::create_hard_link(path("b/x.exr"), path("hard/x.exr.png"));
-  refused("soft", {});
-  refused("hard", {});
+  expect_refused({"a", "b", "--diff-image", "soft"});
+  expect_refused({"a", "b", "--diff-image", "hard"});
   fs::create_directories(path("two"));
   fs::create_directory_symlink(".", path("two/deep"));  // x and deep/x would be one file
-  refused("two", {});
+  expect_refused({"a", "b", "--diff-image", "two"});
   fs::create_hard_link(path("a/x.exr"), path("a.json"));
-  refused("out", {"--json", "a.json"});
+  expect_refused({"a", "b", "--diff-image", "out", "--json", "a.json"});
 
   // The same holds for two files.
   fs::create_hard_link(path("error.exr"), path("map.png"));
-  const auto two =
-      compare({"a/x.exr", "b/x.exr", "--a-error", "error.exr", "--diff-image", "map.png"});
-  EXPECT_EQ(two.exit_code, 2) << two.output_tail;
+  expect_refused({"a/x.exr", "b/x.exr", "--a-error", "error.exr", "--diff-image", "map.png"});
   EXPECT_EQ(compare({"a", "b", "--diff-image", "good"}).exit_code, 1);
   EXPECT_TRUE(fs::exists(path("good/deep/x.exr.png")));
 }
