@@ -9,6 +9,7 @@ SETUP  ?= yes
 FUZZ_SECONDS ?= 60
 MINUTES ?= 10
 PREFIX  ?= /usr/local
+BENCH   ?= out/bench.json
 BASE    ?= HEAD
 SEED    ?= $(shell date +%s)
 
@@ -39,7 +40,7 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(npm)
 	$(configure)
 	@tools/tell 'make gallery: building' '' $(build) --target lobelia lobelia_image_io
-	@tools/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
+	@tools/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)" "$(BENCH)"
 
 screenshots: ## pictures of every view of the gallery in OUT, for a desktop and a phone, into OUT-screenshots
 	$(setup) build browser
@@ -104,7 +105,8 @@ bench: ## measures each goal of speed beside what it is held to, in one table; Q
 	$(npm)
 	$(configure)
 	$(build) --target lobelia lobelia_image_io bench_goals
-	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick)
+	@"build/$(PRESET)/bin/bench_goals" "build/$(PRESET)/bin/lobelia" $(if $(filter yes,$(QUICK)),--quick) \
+	    --commit "$$(git describe --always --dirty=+ --exclude='*')" --committed "$$(git log -1 --format=%cs)" --keep "$(BENCH)"
 
 bench-compare: ## what became slower or faster since the commit BASE, both builds in turn
 	$(setup) build

@@ -11,7 +11,7 @@
 #include "base/system/scratch_memory.hpp"
 #include "base/words/constants.hpp"
 #include "base/words/text.hpp"
-#include "compare/blind_limits.hpp"
+#include "compare/disagreement.hpp"
 #include "compare/faults.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/highlights/words.hpp"
@@ -143,7 +143,8 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOp
   const NoiseOptions& noise = *options.noise;
   const auto in_short = [](const PictureNoise* one) -> std::optional<records::PictureNoise> {
     if (!one) return std::nullopt;
-    return records::PictureNoise{one->freedom, one->shared, one->fireflies, one->has_heavy_tails()};
+    return records::PictureNoise{one->freedom, one->shared, one->layer, one->fireflies,
+                                 one->has_heavy_tails()};
   };
   const int width = input.a.width(), height = input.a.height();
   return {.a = in_short(input.noise->a),
@@ -290,6 +291,17 @@ void check_options(const ComparisonOptions& options) {
   }
 }
 
+ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
+                                       const ComparisonOptions& options) {
+  // The known noise is that of a.
+  ComparisonOptions plain = options;
+  plain.noise.reset();
+  plain.limits.clear();
+  plain.warnings.clear();
+  Comparison measured = compare(c, b, plain);
+  return {"", measured.nonfinite.a, std::move(measured.metrics)};
+}
+
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
   check_options(options);
   require_same_size(a, b);
@@ -385,6 +397,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
       return limit.standing == Standing::kOpen && is_by_default(limit.metric, options);
     });
   result.warnings = judge(options.warnings, result);
+  result.disagreement = disagreements(result.limits);
   if (result.highlight_pixels.value_or(0) > 0)
     result.blind_limits = blind_limits(judge(options.limits, result), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;

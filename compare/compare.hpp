@@ -98,6 +98,10 @@ struct Standing {
 /// `value` is NaN if it could not be measured. Only a limit that holds passes.
 using LimitResult = records::Limit;
 
+/// The distance between two references. No picture can be expected to be nearer. `metrics` compares the second
+/// reference with the first; empty if a value is not finite.
+using ReferenceFloor = records::ReferenceFloor;
+
 struct Comparison {
   Verdict verdict = Verdict::kDiffers;
   LayerType type = LayerType::kColour;  ///< what was compared
@@ -108,6 +112,8 @@ struct Comparison {
   std::vector<NotMeasured> not_measured;  ///< likewise; only outputs that take a limit
   std::vector<LimitResult> limits;        ///< the verdict follows from these
   std::vector<LimitResult> warnings;
+  /// Sentences: limits that contradict each other, see disagreements(). The verdict does not depend on them.
+  std::vector<std::string> disagreement;
   std::vector<std::string>
       blind_limits;  ///< sentences: what given limits cannot see, see blind_limits()
   std::vector<records::Fault> faults;  ///< of pictures that do not pass, see find_faults()
@@ -121,6 +127,7 @@ struct Comparison {
   /// The reference's highlights and those that only the judged picture has, each judged by itself, the worst first. Empty
   /// if nobody asked for them.
   std::vector<records::LocalHighlight> highlights;
+  std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
   /// How the noise was taken into account, if it was known and every value is finite.
   std::optional<records::Uncertainty> uncertainty;
   ErrorBars error_bars;  ///< likewise
@@ -138,9 +145,13 @@ void check_options(const ComparisonOptions& options);
 /// check_options().
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options);
 
-/// `a` and `b` are the record's file names.
+/// The distance of a second reference `c` from `b` under the viewing condition of the options. Throws as compare().
+ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
+                                       const ComparisonOptions& options);
+
+/// `a`, `b` and the second reference `c`, if there was one, are the record's file names.
 records::Comparison comparison_record(const Comparison& comparison, const std::string& a,
-                                      const std::string& b);
+                                      const std::string& b, const std::string& c = "");
 
 /// |a - b| per channel / white_at, clipped at 1, not display-encoded. Magenta where a value is not finite. With
 /// white_at 0 every difference is white. Throws Error(kInput) if the sizes differ.

@@ -60,6 +60,7 @@ records::LayerComparison layer_record(const LayerComparison& layer) {
     record.nonfinite = std::move(whole.nonfinite);
     record.metrics = std::move(whole.metrics);
     record.limits = std::move(whole.limits);
+    record.disagreement = std::move(whole.disagreement);
     record.not_measured = std::move(whole.not_measured);
     record.finding = std::move(whole.finding);
   }
@@ -70,7 +71,7 @@ records::LayerComparison layer_record(const LayerComparison& layer) {
 }  // namespace
 
 records::Comparison comparison_record(const Comparison& comparison, const std::string& a,
-                                      const std::string& b) {
+                                      const std::string& b, const std::string& c) {
   records::Comparison record;
   record.verdict = verdict_name(comparison.verdict);
   record.a = a;
@@ -90,6 +91,7 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.not_measured = comparison.not_measured;
   record.limits = comparison.limits;
   record.warnings = comparison.warnings;
+  record.disagreement = comparison.disagreement;
   record.blind_limits = comparison.blind_limits;
   record.faults = comparison.faults;
   record.uncertainty = comparison.uncertainty;
@@ -98,6 +100,8 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
     record.tolerance = records::Tolerance{
         comparison.tolerance->relative, comparison.tolerance->of_peak,
         comparison.tolerance->allowed_outliers, !comparison.tolerance->edges.empty()};
+  record.reference_floor = comparison.reference_floor;
+  if (record.reference_floor) record.reference_floor->c = c;
   return record;
 }
 

@@ -21,7 +21,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kParts[] = {"results", "failures", "making"};
+constexpr const char* kParts[] = {"results", "failures", "contents", "making"};
 
 bool is_key(std::string_view name) {
   Sha256Digest digest;

@@ -95,7 +95,8 @@ FarmEngine look_for_engine(std::unique_ptr<Engine> made, FileHashes& hashes) {
   engine.here = status.available();
   if (!engine.here) return engine;
   engine.version = status.version;
-  engine.content = engine_content(status, hashes);
+  engine.files = engine_content(status, hashes);
+  engine.content = engine.files.sha256;
   return engine;
 }
 

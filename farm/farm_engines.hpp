@@ -25,12 +25,13 @@ struct FarmEngine {
   std::unique_ptr<Engine> engine;
   std::string name;
   std::string version = {};  ///< empty: unknown
-  /// SHA-256 of the program and everything it loads and reads; empty for an engine that is part of our program.
-  std::string content = {};
+  std::string content =
+      {};            ///< SHA-256 of `files`; empty for an engine that is part of our program
   bool here = true;  ///< false: absent; version and content are those of the last run
   bool is_here() const { return here && !version.empty(); }
   /// Whether its results have keys: those in the cache are shown even if the engine is absent.
   bool is_known() const { return !version.empty(); }
+  Content files = {};  ///< the program and everything it loads and reads (engine_content())
 };
 
 struct EngineChoice {

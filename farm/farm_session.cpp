@@ -125,6 +125,8 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
     summary_.warnings.insert(std::move(warning));
   cache_.remove_abandoned();
   remove_abandoned_temporaries();
+  cache_.keep_content(own_libraries());
+  for (const auto& engine : work_.engines) cache_.keep_content(engine.files);
   remove_abandoned_parts(HeldDirectory(directory_));
   look_at_cells();
   FailedJobs(options.failed_directory)

@@ -15,7 +15,6 @@
 #include "base/system/sha256.hpp"
 #include "base/system/version.hpp"
 #include "base/words/text.hpp"
-#include "reference_scenes/content.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia {
@@ -63,8 +62,7 @@ std::vector<fs::path> libraries_of(const std::string& loader, const fs::path& fi
                    ExitCode::kInput);
 }
 
-/// SHA-256 of the files that decide a result.
-std::string hash_libraries() {
+Content find_libraries() {
   FileHashes& hashes = FileHashes::of_user();
   ContentReader reader(hashes);
   const std::string loader = find_loader();
@@ -81,7 +79,7 @@ std::string hash_libraries() {
       for (const fs::path& library : libraries_of(loader, file))
         reader.add("library", library.filename().native(), library);
   hashes.save();
-  return reader.sha256();
+  return reader.content();
 }
 
 constexpr int kArguments = 1000;  // two variants of a function differ at about one in a hundred
@@ -205,8 +203,13 @@ std::string OwnIdentity::text() const {
 
 const OwnIdentity& own_identity() {
   static const OwnIdentity identity{std::string(kNameAndVersion) + " " + build_id(),
-                                    hash_libraries(), find_arithmetic()};
+                                    own_libraries().sha256, find_arithmetic()};
   return identity;
+}
+
+const Content& own_libraries() {
+  static const Content libraries = find_libraries();
+  return libraries;
 }
 
 std::vector<std::string> identity_differences(const OwnIdentity& planned, const OwnIdentity& here) {

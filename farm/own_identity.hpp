@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/records/result.hpp"
+#include "reference_scenes/content.hpp"
 
 namespace lobelia {
 
@@ -32,6 +32,9 @@ struct OwnIdentity {
 /// The identity of this process, found once in some milliseconds. Throws Error(kInternal) if a file of ours is missing,
 /// Error(kInput) if one or a library cannot be read.
 const OwnIdentity& own_identity();
+
+/// The files that own_identity().libraries hashes.
+const Content& own_libraries();
 
 /// A few words for each difference: "libm: other results", "libraries: other files".
 std::vector<std::string> identity_differences(const OwnIdentity& planned, const OwnIdentity& here);

@@ -314,6 +314,27 @@ void ResultCache::forget_failure(const ResultKey& key) const {
   }
 }
 
+void ResultCache::keep_content(const Content& content) const {
+  const std::string name = content.sha256 + ".json";
+  if (content.sha256.empty() || ::access((directory_ / "contents" / name).c_str(), F_OK) == 0)
+    return;
+  try {
+    ResultDraft made = draft();
+    records::write_record(made.file("json"), content);
+    move(made.file("json"), root().make_below("contents"), name);
+  } catch (const Error&) {  // a read-only cache
+  }
+}
+
+std::optional<Content> ResultCache::content(const std::string& sha256) const {
+  if (Sha256Digest digest; !from_hex(sha256, digest)) return std::nullopt;
+  try {
+    return records::read_record<Content>(directory_ / "contents" / (sha256 + ".json"));
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 void ResultCache::forget_failure(const ResultKey& key, Removal& removal) const {
   for (const char* ending : {".json", ".log"}) removal.remove(on_shelf("failures", key, ending));
 }

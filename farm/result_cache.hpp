@@ -3,6 +3,7 @@
 //   CACHE/lobelia-cache             marks a cache, and names its layout
 //   CACHE/results/ab/KEY/           one result: its files and result.json, renamed into place as a whole
 //   CACHE/failures/ab/KEY.json      why there is no result, and KEY.log beside it
+//   CACHE/contents/SHA256.json      the files of a program that made results
 //   CACHE/making/                   results in the making (DraftName)
 //   CACHE/locks                     claims (base/system/byte_locks.hpp)
 //
@@ -13,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/records/result.hpp"
 #include "farm/cache_layout.hpp"
 #include "farm/job.hpp"
+#include "reference_scenes/content.hpp"
 
 namespace lobelia {
 
@@ -118,6 +119,10 @@ class ResultCache {
   std::optional<records::Failure> failure(const ResultKey& key) const;
   void forget_failure(const ResultKey& key) const;
   void forget_failure(const ResultKey& key, Removal& removal) const;
+
+  /// Keeps the list of a program's files under its hash, for explanations. The cache may be read-only.
+  void keep_content(const Content& content) const;
+  std::optional<Content> content(const std::string& sha256) const;
 
   /// Removes the drafts of dead processes. To be called before this object has drafts.
   AbandonedDrafts remove_abandoned() const {

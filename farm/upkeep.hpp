@@ -1,8 +1,9 @@
-// Keeping a cache and a farm's directory in order: `lobelia farm status`, `verify`, `gc` and `clean`.
+// Keeping a cache and a farm's directory in order: `lobelia farm status`, `verify`, `gc`, `clean` and `explain`.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "base/records/farm.hpp"
@@ -71,5 +72,11 @@ records::StatusCounts count_statuses(const std::vector<std::string>& statuses);
 
 /// The state of every cell. May be called while a farm is running there.
 records::FarmStatus farm_status(const std::filesystem::path& directory);
+
+/// The parts of the keys of a cell's results, or only of `job` ("reference-povray"), and which have changed. Engines are
+/// those in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
+records::FarmExplanation explain_cell(const std::filesystem::path& directory,
+                                      const std::string& cell, const std::string& job,
+                                      const std::map<std::string, std::filesystem::path>& programs);
 
 }  // namespace lobelia

@@ -40,6 +40,7 @@ struct PictureNoise {
   double freedom = 0;         ///< degrees of freedom of one value by itself, at least 1
   double pooled_freedom = 0;  ///< of a value of `cautious`
   bool shared = false;        ///< pixels err together: they share their points, or were filtered
+  std::string layer = {};     ///< of the picture's file that says it; empty for other files
   /// The difference from the mean of each replicate but the last: their sum is less than that of the last one. They show
   /// how the channels of a pixel err together, and how heavy the tails are. Empty for noise of another source.
   std::vector<Image> deviations = {};

@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <ctime>
+#include <functional>
 
 #include "base/records/record.hpp"
-#include "base/records/result.hpp"
 #include "base/system/error.hpp"
 #include "base/system/files.hpp"
 #include "base/system/host.hpp"
@@ -93,18 +93,21 @@ FileHashes::FileHashes(fs::path file) : file_(std::move(file)) {
   }
 }
 
-std::string FileHashes::hash(const fs::path& path) { return hash(InputFile(path)); }
+records::ContentFile FileHashes::hash(const fs::path& path) { return hash(InputFile(path)); }
 
-std::string FileHashes::hash(const InputFile& file, std::chrono::duration<double> time_limit) {
+records::ContentFile FileHashes::hash(const InputFile& file,
+                                      std::chrono::duration<double> time_limit) {
   const fs::path& path = file.path();
   const struct stat before = status_of(file);
   const std::string identity = identity_of(before);
   {
     const std::scoped_lock lock(mutex_);
     const auto known = entries_.find(path.native());
-    if (known != entries_.end() && known->second.identity == identity) return known->second.sha256;
+    if (known != entries_.end() && known->second.identity == identity)
+      return {path.string(), std::uint64_t(before.st_size), known->second.sha256};
   }
-  std::string hashed = hex(sha256_of_file(file, time_limit));
+  records::ContentFile hashed{path.string(), std::uint64_t(before.st_size),
+                              hex(sha256_of_file(file, time_limit))};
   const struct stat after = status_of(file);
   const bool settled = identity_of(after) == identity &&
                        std::time(nullptr) - std::max(after.st_mtim.tv_sec, after.st_ctim.tv_sec) >=
@@ -112,7 +115,7 @@ std::string FileHashes::hash(const InputFile& file, std::chrono::duration<double
   const std::scoped_lock lock(mutex_);
   ++read_count_;
   if (settled && (entries_.size() < kMostEntries || entries_.contains(path.native()))) {
-    entries_[path.native()] = {identity, hashed};
+    entries_[path.native()] = {identity, hashed.sha256};
     changed_ = true;
   }
   return hashed;
@@ -136,7 +139,7 @@ void FileHashes::save() {
 }
 
 void ContentReader::add(std::string_view part, std::string_view name, const fs::path& file) {
-  std::string hashed = kUnreadable;
+  records::ContentFile hashed{file.string(), 0, kUnreadable};
   try {
     const InputFile opened(file);
     if (opened.size() > kMostHashedBytes)
@@ -149,7 +152,8 @@ void ContentReader::add(std::string_view part, std::string_view name, const fs::
     // A program may be executable but not readable. If a fault counted as that, all keys would change without a word.
     if (error.code() != ExitCode::kInput || !is_out_of_reach(file)) throw;
   }
-  parts_.push_back(fmt::format("{}:{}:{}:{}\n", part, name.size(), name, hashed));
+  parts_.push_back(fmt::format("{}:{}:{}:{}\n", part, name.size(), name, hashed.sha256));
+  files_.push_back(std::move(hashed));
 }
 
 void ContentReader::add_directory(const fs::path& directory) {
@@ -171,11 +175,44 @@ void ContentReader::add_directory(const fs::path& directory) {
     throw failure_of(directory.string() + ": cannot be listed", error.value(), ExitCode::kInput);
 }
 
-std::string ContentReader::sha256() {
-  if (parts_.empty()) return "";
-  std::ranges::sort(parts_);
-  parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
-  return hex(lobelia::sha256(fmt::format("{}", fmt::join(parts_, ""))));
+Content ContentReader::content() {
+  const auto keep_each_once = [](auto& values, auto key) {
+    std::ranges::sort(values, {}, key);
+    // Clang 14 does not compile std::ranges::unique of GCC 12's library.
+    const auto same = [&](const auto& a, const auto& b) {
+      return std::invoke(key, a) == std::invoke(key, b);
+    };
+    values.erase(std::unique(values.begin(), values.end(), same), values.end());
+  };
+  keep_each_once(parts_, std::identity());
+  keep_each_once(files_, &records::ContentFile::path);
+  Content content;
+  if (!parts_.empty()) content.sha256 = hex(sha256(fmt::format("{}", fmt::join(parts_, ""))));
+  content.file_count = files_.size();
+  content.files = std::move(files_);
+  if (content.files.size() > kMostListedFiles) content.files.resize(kMostListedFiles);
+  return content;
+}
+
+std::vector<std::string> file_changes(const Content& before, const Content& now, std::size_t most) {
+  std::map<std::string, std::pair<std::string, std::string>> hashes;
+  for (const auto& file : before.files) hashes[file.path].first = file.sha256;
+  for (const auto& file : now.files) hashes[file.path].second = file.sha256;
+  std::vector<std::string> changes;
+  std::size_t more = 0;
+  for (const auto& [path, both] : hashes) {
+    if (both.first == both.second) continue;
+    if (changes.size() == most) {
+      ++more;
+      continue;
+    }
+    changes.push_back(fmt::format("{} {}", path,
+                                  both.first.empty()    ? "is new"
+                                  : both.second.empty() ? "is gone"
+                                                        : "changed"));
+  }
+  if (more > 0) changes.push_back(fmt::format("and {} files more", more));
+  return changes;
 }
 
 }  // namespace lobelia

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/records/result.hpp"
 #include "base/system/files.hpp"
 #include "base/system/sha256.hpp"
 #include "reference_scenes/engine.hpp"
@@ -32,8 +33,9 @@ class FileHashes {
   static FileHashes& of_user();
 
   /// Throws as sha256_of_file().
-  std::string hash(const std::filesystem::path& path);
-  std::string hash(const InputFile& file, std::chrono::duration<double> time_limit = kAnyTime);
+  records::ContentFile hash(const std::filesystem::path& path);
+  records::ContentFile hash(const InputFile& file,
+                            std::chrono::duration<double> time_limit = kAnyTime);
   /// Writes new hashes and drops those of deleted files. If it cannot write, the next run reads the files again.
   void save();
   std::size_t read_count() const { return read_count_; }  ///< files hashed by reading them
@@ -49,7 +51,10 @@ class FileHashes {
   std::size_t read_count_ = 0;
 };
 
-/// One hash over several files: each file's part, content and name (except of programs and directories).
+/// Files by path. `sha256` covers each file's part, content and name (except of programs and directories); it is empty
+/// without files.
+using Content = records::Content;
+
 class ContentReader {
  public:
   explicit ContentReader(FileHashes& hashes) : hashes_(hashes) {}
@@ -60,13 +65,17 @@ class ContentReader {
   /// All regular files below `directory`, if it exists, by their relative names. Skips Python's caches and links to
   /// directories. Throws as add(), and if a directory cannot be listed.
   void add_directory(const std::filesystem::path& directory);
-  /// Empty without files.
-  std::string sha256();
+  Content content();
 
  private:
   FileHashes& hashes_;
   std::vector<std::string> parts_;
+  std::vector<records::ContentFile> files_;
 };
+
+/// The files that differ: "/usr/bin/povray changed", "... is new", "... is gone". At most `most`, then the number of the
+/// others.
+std::vector<std::string> file_changes(const Content& before, const Content& now, std::size_t most);
 
 // The files that an engine runs, loads and reads.
 
@@ -84,8 +93,8 @@ class LoaderTrace {
   std::filesystem::path directory_;
 };
 
-/// SHA-256 of the files of an engine that is ready; empty for one that is part of Lobelia. Reads only files that `hashes`
-/// does not know.
-std::string engine_content(const EngineStatus& status, FileHashes& hashes);
+/// The content of an engine that is ready; empty for one that is part of Lobelia. Reads only files that `hashes` does not
+/// know.
+Content engine_content(const EngineStatus& status, FileHashes& hashes);
 
 }  // namespace lobelia

@@ -79,7 +79,7 @@ EngineFiles LoaderTrace::files() const {
   return files;
 }
 
-std::string engine_content(const EngineStatus& status, FileHashes& hashes) {
+Content engine_content(const EngineStatus& status, FileHashes& hashes) {
   ContentReader reader(hashes);
   if (!status.program.empty()) reader.add("program", "", status.program);
   for (const auto& program : status.files.programs) reader.add("program", "", program);
@@ -92,7 +92,7 @@ std::string engine_content(const EngineStatus& status, FileHashes& hashes) {
     else
       reader.add_directory(data);
   }
-  return reader.sha256();
+  return reader.content();
 }
 
 }  // namespace lobelia

@@ -73,9 +73,10 @@ bool FusedRenderer::can_render(const Scene& scene, const Plan& plan) {
       if (!occluders.empty()) return false;
   for (const auto& touched : plan.contacts)
     if (!touched.empty()) return false;
-  // The kernel of a sphere has one precision for all lights.
+  // The kernel of a sphere has one precision for all lights. None emulates float16.
   for (const auto& by_sphere : plan.precision)
-    if (by_sphere != plan.precision[0]) return false;
+    if (by_sphere != plan.precision[0] || std::ranges::count(by_sphere, Precision::kFloat16) > 0)
+      return false;
   return true;
 }
 

@@ -5,15 +5,16 @@
 #include <limits>
 #include <numbers>
 
+#include "base/pictures/half.hpp"
 #include "base/words/text.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr std::string_view kNames[] = {"float32", "mixed", "float64"};
+constexpr std::string_view kNames[] = {"float32", "mixed", "float64", "float16"};
 static_assert(std::size(kNames) == kPrecisionCount);
 /// The largest relative error of one rounding.
-constexpr double kUnit32 = 0x1p-24, kUnit64 = 0x1p-53;
+constexpr double kUnit16 = 0x1p-11, kUnit32 = 0x1p-24, kUnit64 = 0x1p-53;
 
 /// The error of the difference of the lobe's two unit vectors, in roundings. docs/numerics.md counts them.
 double roundings(LobeAngle angle, double min_half_length) {
@@ -60,6 +61,13 @@ double shading_error_bound(Precision precision, const Highlight& highlight,
       return modulus(highlight, roundings_here * kUnit32, 0) + in_lobe;
     case Precision::kMixed:
       return in_float64 + modulus(highlight, 0, kUnit32) + in_lobe;
+    case Precision::kFloat16: {
+      if (highlight.exponent > kGreatestHalf) return std::numeric_limits<double>::infinity();
+      // One more rounding for subnormal squares: s is off by 2.5 * 2^-25 at most, and so its chord by 0.8 * 2^-11. Twice
+      // the lobe's arithmetic, because its constants are rounded too.
+      const double in_vectors = modulus(highlight, (roundings_here + 1) * kUnit16, 2 * kUnit16);
+      return in_vectors + 2 * in_lobe * (kUnit16 / kUnit32);
+    }
     case Precision::kFloat64:
       break;
   }

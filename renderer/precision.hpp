@@ -15,10 +15,13 @@ enum class Precision : std::uint8_t {
   kFloat32,  ///< unit vectors are rounded to float32, the rest is float32
   kMixed,    ///< s = 1 - cos is computed in float64 and rounded; the lobe is float32
   kFloat64,  ///< everything is float64
+  /// As a phone may shade: unit vectors, s and the lobe in half floats (base/pictures/half.hpp). Emulated, so its time is
+  /// not a phone's, and no plan chooses it.
+  kFloat16,
 };
-inline constexpr std::size_t kPrecisionCount = 3;
+inline constexpr std::size_t kPrecisionCount = 4;
 
-/// "float32", "mixed", "float64"
+/// "float32", "mixed", "float64", "float16"
 std::span<const std::string_view> precision_names();
 std::string_view name(Precision precision);
 std::optional<Precision> find_precision(std::string_view name);

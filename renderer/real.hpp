@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pictures/half.hpp"
+
 namespace lobelia {
 
 /// `value` where a < b, else 0, even where `value` is NaN.
@@ -41,6 +43,36 @@ template <>
 struct ScalarOf<double> {
   using Type = double;
 };
+
+// For half floats. Functions that no processor has are rounded once, as exp and log are.
+
+template <Subnormals kKind>
+HalfOf<kKind> where_less(HalfOf<kKind> a, HalfOf<kKind> b, HalfOf<kKind> value) {
+  return a < b ? value : HalfOf<kKind>(0);
+}
+/// Not 0 for subnormal numbers, which are part of what is emulated.
+template <Subnormals kKind>
+HalfOf<kKind> exp_or_zero(HalfOf<kKind> x) {
+  return exp(x);
+}
+template <Subnormals kKind>
+HalfOf<kKind> log_one_minus(HalfOf<kKind> s) {
+  return log_one_minus(double(s));
+}
+template <Subnormals kKind>
+HalfOf<kKind> half_square_of_angle(HalfOf<kKind> s) {
+  return half_square_of_angle(double(s));
+}
+/// With two roundings: `a * b + c` in a shader may be either.
+template <Subnormals kKind>
+HalfOf<kKind> multiply_add(HalfOf<kKind> a, HalfOf<kKind> b, HalfOf<kKind> c) {
+  return a * b + c;
+}
+/// q is a half float too: a product with more digits would be one of another precision.
+template <Subnormals kKind>
+HalfOf<kKind> one_minus_product(double q, HalfOf<kKind> s) {
+  return 1 - q * s;
+}
 
 /// The smallest u with a normal number u^k of that type.
 template <class Scalar>

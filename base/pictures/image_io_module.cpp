@@ -282,6 +282,14 @@ void to_light(const std::filesystem::path& path, const ProfiledMeaning& meaning,
   picture.source.transfer = kByProfile;
 }
 
+double samples_of(const OIIO::ImageSpec& spec, const std::string& channel) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+    if (may_state_samples(attribute.name().string()))
+      texts.emplace_back(attribute.name().string(), attribute.get_string());
+  return samples_stated(texts, channel);
+}
+
 /// The Cryptomattes that the parts announce, with their manifests where the values are wanted as they are stored: keys
 /// cryptomatte/ID/name and cryptomatte/ID/manifest.
 void find_cryptomattes(OIIO::ImageInput& input, std::size_t parts, PictureSource& source) {
@@ -375,6 +383,7 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   const OIIO::TypeDesc type = spec.channelformat(int(layer.where[0]));
   source = picture_source(format, parts, layer);
   source.value_type = type.c_str();
+  source.samples = samples_of(spec, source.channels[0]);
   source.data = data_window(spec);
   source.display = display_window(spec, format);
 

@@ -47,6 +47,7 @@ struct PictureSource {
   std::string icc_profile;    ///< description of a profile
   bool icc_is_srgb = false;   ///< the profile is what is assumed anyway
   bool has_gain_map = false;  ///< which is not applied
+  double samples = 0;         ///< of a pixel, if a renderer wrote them into the file; else 0
   PixelWindow data, display;
   int orientation = 1;  ///< of the stored rows and columns, undone (base/pictures/orientation.hpp)
   std::string alpha;    ///< name of the layer with its alpha; empty if there is none

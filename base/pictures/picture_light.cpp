@@ -22,6 +22,10 @@ void convert_primaries(const fs::path& path, const Chromaticities& from, Picture
   picture.source.chromaticities.assign(from.begin(), from.end());
 }
 
+constexpr std::string_view kPbrtSamples = "samplesPerPixel";
+/// "cycles.ViewLayer.samples", of the layer's first part.
+constexpr std::string_view kCyclesBegin = "cycles.", kCyclesEnd = ".samples";
+
 }  // namespace
 
 ColourMeaning png_meaning(const fs::path& path, const PngColour& colour) {
@@ -81,6 +85,27 @@ PictureSource picture_source(std::string_view format, std::span<const PicturePar
 int rows_of_band(int width, int block) {
   constexpr int kBandPixels = 2 << 20;
   return std::max(block, kBandPixels / width / block * block);
+}
+
+bool may_state_samples(std::string_view name) {
+  return name == kPbrtSamples || (name.starts_with(kCyclesBegin) && name.ends_with(kCyclesEnd) &&
+                                  name.size() > kCyclesBegin.size() + kCyclesEnd.size());
+}
+
+double samples_stated(std::span<const std::pair<std::string, std::string>> attributes,
+                      const std::string& channel) {
+  double samples = 0, of_layer = 0;
+  for (const auto& [name, text] : attributes) {
+    if (name == kPbrtSamples) parse_number(text, samples);
+    if (name == kPbrtSamples || !may_state_samples(name)) continue;
+    const std::string layer =
+        name.substr(kCyclesBegin.size(), name.size() - kCyclesBegin.size() - kCyclesEnd.size());
+    double number = 0;
+    if ((channel + ".").starts_with(layer + ".") && parse_number(text, number)) of_layer = number;
+  }
+  if (of_layer != 0) samples = of_layer;
+  constexpr double kMostSamples = 1e12;
+  return samples >= 1 && samples <= kMostSamples ? samples : 0;
 }
 
 }  // namespace lobelia

@@ -41,4 +41,12 @@ PictureSource picture_source(std::string_view format, std::span<const PicturePar
 /// Rows that are decoded at a time: about two million pixels, and a multiple of `block`.
 int rows_of_band(int width, int block);
 
+/// Whether samples_stated() looks at an attribute of that name.
+bool may_state_samples(std::string_view name);
+
+/// A pixel's samples, as pbrt and Cycles write them into their files, by an attribute's name and text; 0 if there is no
+/// such number. `channel` is the first of the layer.
+double samples_stated(std::span<const std::pair<std::string, std::string>> attributes,
+                      const std::string& channel);
+
 }  // namespace lobelia

@@ -95,11 +95,11 @@ class Unpacker {
 template <class Through, class Source>
 void pass_source(Through& through, Source& source) {
   auto& [format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-         icc_profile, icc_is_srgb, has_gain_map, data, display, orientation, alpha, layers,
+         icc_profile, icc_is_srgb, has_gain_map, samples, data, display, orientation, alpha, layers,
          mip_levels, cryptomattes, manifests, as_stored] = source;
   through.fields(format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-                 icc_profile, icc_is_srgb, has_gain_map, data, display, orientation, alpha, layers,
-                 mip_levels, cryptomattes, manifests, as_stored);
+                 icc_profile, icc_is_srgb, has_gain_map, samples, data, display, orientation, alpha,
+                 layers, mip_levels, cryptomattes, manifests, as_stored);
 }
 
 template <class Through, class Request>

@@ -263,13 +263,22 @@ class PlainExr : public PlainFile {
       const std::string_view name = found->name;
       // OpenImageIO finds them in any case of letters.
       if (std::ranges::count(kNotPlain, lower_case(name)) > 0) return false;
-      if (name == "name" && found->type == EXR_ATTR_STRING)
-        part.name.assign(found->string->str, std::size_t(found->string->length));
+      const bool is_text = found->type == EXR_ATTR_STRING;
+      const std::string text =
+          is_text ? std::string(found->string->str, std::size_t(found->string->length)) : "";
+      if (name == "name" && is_text) part.name = text;
       if (name == "chromaticities" && found->type == EXR_ATTR_CHROMATICITIES) {
         const exr_attr_chromaticities_t& c = *found->chromaticities;
         primaries_ = {c.red_x,  c.red_y,  c.green_x, c.green_y,
                       c.blue_x, c.blue_y, c.white_x, c.white_y};
       }
+      if (!may_state_samples(name)) continue;
+      if (found->type == EXR_ATTR_INT)
+        attributes.emplace_back(name, std::to_string(found->i));
+      else if (is_text)
+        attributes.emplace_back(name, text);
+      else
+        return false;
     }
     return true;
   }

@@ -38,6 +38,7 @@ std::optional<Picture> read_plain_picture(const PictureBytes& file, const std::s
 
   PictureSource source = picture_source(file.format, parts, layer);
   source.value_type = plain->value_type;
+  source.samples = samples_stated(plain->attributes, source.channels[0]);
   source.data = source.display = plain->window;
   source.as_stored = file.as_stored;
   const bool is_decoded = layer.is_colour && !file.as_stored;

@@ -26,6 +26,7 @@ class PlainFile {
   PixelWindow window;
   std::string value_type;  ///< of all channels, as PictureSource has it
   std::size_t value_bytes = 0;
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< that may_state_samples()
   bool is_unassociated = false;  ///< colours are not multiplied by alpha, the last channel
   int band_rows = 0;             ///< that may be decoded alone; 0: all rows together
 

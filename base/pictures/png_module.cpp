@@ -59,6 +59,13 @@ class PlainPng : public PlainFile {
     window = {0, 0, int(header.width), int(header.height)};
     value_bytes = header.bit_depth / 8;
     value_type = value_bytes == 1 ? "uint8" : "uint16";
+    std::uint32_t count = 0;
+    if (::spng_get_text(png, nullptr, &count) != 0) return true;  // there are none
+    std::vector<spng_text> texts(count);
+    if (::spng_get_text(png, texts.data(), &count) != 0) return false;
+    for (const spng_text& text : texts)
+      if (may_state_samples(text.keyword))
+        attributes.emplace_back(text.keyword, std::string(text.text, text.length));
     return true;
   }
 

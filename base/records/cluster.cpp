@@ -64,6 +64,9 @@ void define_cluster_tables(Tables& tables) {
         t.key("nextChunk").at_most(1e9);
         t.key("firstReport", "earlier reports were another run's");
       });
+  tables.define<SlurmDoctor>(
+      "What the doctor's job found on a node; empty texts where all is well.",
+      [](auto& t) { t.kind("slurm-doctor"); });
 }
 
 }  // namespace lobelia::records

@@ -72,6 +72,10 @@ struct SlurmRun {
   std::vector<SlurmArray> arrays;
 };
 
+struct SlurmDoctor {
+  std::string host, version, token, rename, link, lock;
+};
+
 void define_cluster_tables(Tables& tables);
 
 }  // namespace lobelia::records

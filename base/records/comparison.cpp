@@ -142,6 +142,7 @@ void define_comparison_tables(Tables& tables) {
   tables.define<PictureNoise>("The known noise of a picture.", [](auto& t) {
     t.key("freedom", "degrees of freedom of each value's error").at_least(1).may_be_nonfinite();
     t.key("shared", "its pixels err together");
+    t.key("layer", "of the picture's own file, that says it").if_any();
     t.key("fireflies", "share of pixels that err more than six times as much as all around them")
         .at_least(0);
     t.key("heavyTails", "there are so many fireflies that the noise is far from normal");
@@ -164,6 +165,11 @@ void define_comparison_tables(Tables& tables) {
     t.key("ofPeak", "share of the reference's brightest value").at_least(0);
     t.key("allowedOutliers").unit("pixels").at_least(0);
     t.key("onEdgesOnly", "no outlier but on silhouettes, terminators and shadow edges");
+  });
+  tables.define<ReferenceFloor>("How far a second reference is from b.", [](auto& t) {
+    t.key("c", "file of the second reference");
+    t.key("nonfinite").unit("pixels").at_least(0);
+    t.key("metrics", "of c against b").may_be_nonfinite();
   });
   static constexpr std::string_view kFinding =
       "of identifiers that differ: which one is most often where another should be";
@@ -222,6 +228,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("notMeasured").if_any();
     t.key("limits").items(1);
     t.key("warnings", "limits that are no part of the verdict").if_any();
+    t.key("disagreement", "sentences: which limits say opposite things by far");
     t.key("blindLimits", "sentences: what the limits that were given cannot see").if_any();
     t.key("faults", "of a picture that does not pass").if_any();
     t.key("errorBars", "by metric, where the noise is known");
@@ -263,6 +270,7 @@ void define_comparison_tables(Tables& tables) {
         t.kind("comparison-set");
         t.key("a", "the folder that was judged");
         t.key("b", "the folder of references");
+        t.key("c", "the folder of second references").if_any();
         t.key("worst", "by metric");
         t.key("missing", "only b has them");
         t.key("extra", "only a has them");

@@ -110,6 +110,7 @@ struct Limit {
 struct PictureNoise {
   double freedom = 0;
   bool shared = false;
+  std::string layer;
   std::optional<double> fireflies;
   std::optional<bool> heavy_tails;
 };
@@ -133,6 +134,12 @@ struct Tolerance {
   bool on_edges_only = false;
 };
 
+struct ReferenceFloor {
+  std::string c;
+  std::int64_t nonfinite = 0;
+  Named<double> metrics;
+};
+
 /// A further layer of both files.
 struct LayerComparison {
   std::string layer, type, verdict;
@@ -142,6 +149,7 @@ struct LayerComparison {
   std::optional<Nonfinite> nonfinite;
   std::optional<Named<double>> metrics;
   std::optional<std::vector<Limit>> limits;
+  std::optional<std::vector<std::string>> disagreement;
   std::vector<NotMeasured> not_measured;
   std::string finding;
   PicturesRead pictures;
@@ -180,11 +188,12 @@ struct Comparison {
   Named<double> metrics;
   std::vector<NotMeasured> not_measured;
   std::vector<Limit> limits, warnings;
-  std::vector<std::string> blind_limits;
+  std::vector<std::string> disagreement, blind_limits;
   std::vector<Fault> faults;
   std::optional<Uncertainty> uncertainty;
   std::optional<Named<ErrorBar>> error_bars;
   std::optional<Tolerance> tolerance;
+  std::optional<ReferenceFloor> reference_floor;
   std::optional<PicturesRead> pictures;
   std::optional<NotCompared> not_compared;
   std::optional<std::vector<LayerComparison>> layers;
@@ -226,7 +235,7 @@ struct PairOfSet {
 };
 
 struct ComparisonSet {
-  std::string a, b;
+  std::string a, b, c;
   SetSummary summary;
   SetNotCompared not_compared;
   Named<WorstOfSet> worst;

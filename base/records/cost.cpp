@@ -10,7 +10,9 @@ void define_cost_tables(Tables& tables) {
   tables.define<CostVariant>("A variant of what the table is about.", [](auto& t) {
     t.key("seconds", "of one of what the table counts");
     t.key("errors").at_least(0).may_be_nonfinite();
+    t.key("count", "in place of seconds, where there is nothing to time");
     t.key("errorSpreads", "standard deviations, where something is random").may_be_nonfinite();
+    t.key("errorsAtMost", "bounds of errors that are only the largest seen");
   });
   tables.define<CostFront>("The variants that no other beats in both time and error.", [](auto& t) {
     t.key("variants", "from the fastest on").renamed("ways");

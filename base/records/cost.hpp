@@ -28,8 +28,9 @@ struct CostVariant {
   std::string name;
   Named<std::string> settings;
   Named<double> errors;
-  MeasuredRounds seconds;
-  std::optional<Named<double>> error_spreads;
+  std::optional<MeasuredRounds> seconds;
+  std::optional<double> count;
+  std::optional<Named<double>> error_spreads, errors_at_most;
   std::optional<CostFacts> facts;
 };
 
@@ -44,6 +45,7 @@ struct CostTable {
   std::string id;
   std::string level;
   std::string title;
+  std::string unit = "s";
   std::string per;
   std::vector<CostError> errors;
   std::vector<CostVariant> variants;

@@ -79,6 +79,17 @@ void define_farm_tables(Tables& tables) {
                               t.key("cache", "its path");
                               t.key("atWork", "a farm uses the cache now");
                             });
+  tables.define<ExplainedPart>("A part of a result's key, then and now.", [](auto& t) {
+    t.key("files", "sentences: which files changed, at most five").if_any();
+  });
+  tables.define<ExplainedJob>("A job, and what its result was made of.",
+                              [](auto& t) { t.key("why", "why it is not in the cache").if_any(); });
+  tables.define<FarmExplanation>(
+      "Why a cell's results are made again: 'lobelia farm explain DIR CELL --json FILE'.",
+      [](auto& t) {
+        t.kind("farm-explanation");
+        t.key("without", "sentences: why an engine has no result");
+      });
   tables.define<GalleryList>(
       "The files that publishing wrote. The next time only these are replaced or removed.",
       [](auto& t) {

@@ -107,6 +107,25 @@ struct FarmStatus {
   std::vector<FailureOfCell> failures;
 };
 
+struct ExplainedPart {
+  std::string part, was, now;
+  bool same = false;
+  std::vector<std::string> files;
+};
+
+struct ExplainedJob {
+  std::string job, key;
+  bool in_cache = false;
+  std::string why;
+  std::vector<ExplainedPart> parts;
+};
+
+struct FarmExplanation {
+  std::string cell, status;
+  std::vector<ExplainedJob> jobs;
+  std::vector<std::string> without;
+};
+
 struct GalleryList {
   std::vector<std::string> files;
   Named<std::string> made_of;

@@ -70,6 +70,11 @@ void define_result_tables(Tables& tables) {
     t.kind("failure");
     t.key("failure", "a class of docs/farm.md");
   });
+  tables.define<ContentFile>("A file that a program runs, loads or reads.");
+  tables.define<Content>("What libraries or an engine of one hash consist of.", [](auto& t) {
+    t.kind("content");
+    t.key("files", "the first 10000");
+  });
   tables.define<KnownHashes>("Hashes of files that seldom change, of one user on one machine.",
                              [](auto& t) {
                                t.kind("file-hashes", Seal::kYes);

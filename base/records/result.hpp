@@ -75,6 +75,18 @@ struct Failure {
   Host host;
 };
 
+struct ContentFile {
+  std::string path;
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+struct Content {
+  std::string sha256;
+  std::size_t file_count = 0;
+  std::vector<ContentFile> files;
+};
+
 struct KnownHashes {
   std::vector<std::array<std::string, 3>> files;  ///< path, identity, SHA-256
 };

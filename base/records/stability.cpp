@@ -44,11 +44,15 @@ void define_stability_tables(Tables& tables) {
     t.key("truth").may_be_nonfinite();
     t.key("outcome", "not compared: no bound below the whole peak is stated").one_of(kOutcomes);
   });
+  tables.define<StabilityPicture>("Files of a picture, relative to the record.",
+                                  [](auto& t) { t.key("largestErrorOfPeak").may_be_nonfinite(); });
+  tables.define<StabilityPictures>("A picture by naive formulas and by ours.");
   tables.define<VerifyStability>(
       "How stable highlights are: 'lobelia verify stability --json FILE'.", [](auto& t) {
         t.kind("verify-stability");
         t.keys({"groups", "curves"}).if_any();
         t.key("rows", "what is outside its bound; every case with --all").if_any();
+        t.key("pictures", "with --pictures").if_any();
       });
 }
 

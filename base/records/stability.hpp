@@ -52,6 +52,16 @@ struct StabilityRow {
   std::string outcome;
 };
 
+struct StabilityPicture {
+  std::string exr, png, error;
+  double largest_error_of_peak = 0;
+};
+
+struct StabilityPictures {
+  double exponent = 0;
+  StabilityPicture naive, ours;
+};
+
 struct VerifyStability {
   std::vector<std::string> command;
   std::string instruction_set;
@@ -62,6 +72,7 @@ struct VerifyStability {
   std::vector<StabilityOfLobe> by_exponent;
   std::vector<StabilityCurve> curves;
   std::vector<StabilityRow> rows;
+  std::vector<StabilityPictures> pictures;
 };
 
 void define_stability_tables(Tables& tables);

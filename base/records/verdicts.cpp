@@ -27,6 +27,7 @@ void define_verdict_tables(Tables& tables) {
         t.key("seeds", "pairs of each kind").at_least(1);
         t.key("bootstraps").at_least(4);
         t.key("outside", "kinds of noise with more false alarms than promised").at_least(0);
+        t.key("leftOut", "why pictures of an engine are missing").if_any();
       });
 }
 

@@ -24,6 +24,7 @@ struct VerifyVerdicts {
   double significance = 0;
   int seeds = 0, bootstraps = 0;
   std::size_t outside = 0;
+  std::string left_out;
   std::vector<VerdictCell> cells;
 };
 

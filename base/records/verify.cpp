@@ -30,6 +30,19 @@ void define_verify_tables(Tables& tables) {
         t.key("goal", "share that is to lie within two stated errors").between(0, 1);
         t.key("outside", "kinds that miss the goal").at_least(0);
       });
+  tables.define<LightBeside>("A picture with one light in view, and the changed one.", [](auto& t) {
+    t.key("light", "times the highlight's peak").at_least(0);
+    t.key("differs", "by the default limits");
+  });
+  tables.define<ChangedHighlight>("One change of one highlight.", [](auto& t) {
+    t.key("shouldDiffer", "rounding alone should not");
+  });
+  tables.define<VerifyHighlights>(
+      "Changed highlights beside a light: 'lobelia verify highlights --json FILE'.", [](auto& t) {
+        t.kind("verify-highlights");
+        t.key("command").if_any();
+        t.key("wrong", "pairs that are missed, or called different by rounding").at_least(0);
+      });
 }
 
 }  // namespace lobelia::records

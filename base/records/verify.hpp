@@ -1,4 +1,4 @@
-// Records of `lobelia verify profiles`.
+// Records of `lobelia verify profiles` and `lobelia verify highlights`.
 #pragma once
 
 #include "base/records/struct_type.hpp"
@@ -25,6 +25,24 @@ struct VerifyProfiles {
   double goal = 0;
   std::size_t outside = 0;
   std::vector<KindCoverage> kinds;
+};
+
+/// Beside a light of so many times the highlight's peak.
+struct LightBeside {
+  double light = 0;
+  bool differs = false, is_right = false;
+};
+
+struct ChangedHighlight {
+  std::string highlight, change;
+  bool should_differ = false;
+  std::vector<LightBeside> lights;
+};
+
+struct VerifyHighlights {
+  std::vector<std::string> command;
+  std::size_t wrong = 0;
+  std::vector<ChangedHighlight> changes;
 };
 
 void define_verify_tables(Tables& tables);

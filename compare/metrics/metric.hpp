@@ -165,7 +165,8 @@ enum class Better : std::uint8_t {
   kNeither,   ///< a fact, a place or a scale that helps to read an error; takes no limit
 };
 
-/// The kind of values that a metric compares. Metrics of one family mostly agree.
+/// The kind of values that a metric compares. Metrics of one family mostly agree. A disagreement between families
+/// tells the kind of difference (compare/disagreement.hpp).
 enum class Family : std::uint8_t {
   kRadiance,    ///< scene-linear values
   kColour,      ///< colours of single pixels, as shown

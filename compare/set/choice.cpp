@@ -36,6 +36,8 @@ std::vector<CompareOption> options_of_sets() {
       {"also-accept", &Choice::also_accept, For::kSets, "Options", "B2",
        "A further reference, in the form of B: each picture is judged by the one that it "
        "fits best; may be given again"},
+      {"reference-floor", &Choice::reference_floor, For::kSets, "Options", "C",
+       "A second reference: how far it is from B is shown beside how far A is"},
       {.name = "missing-reference",
        .place = &Choice::missing_reference,
        .applies_to = For::kSets,
@@ -145,11 +147,20 @@ std::vector<CompareOption> options_of_noise() {
               &Choice::a_variance);
   add_picture("B", "b-replicate", &Choice::b_replicate, "b-error", &Choice::b_error, "b-variance",
               &Choice::b_variance);
+  options.push_back({.name = "noise-from-layers",
+                     .place = &Choice::noise_from_layers,
+                     .applies_to = For::kFiles,
+                     .heading = kHeading,
+                     .value = "",
+                     .meaning = "Whose own file has its noise as layers, of Mitsuba, pbrt, old "
+                                "Cycles, or called StandardError (docs/pictures.md)",
+                     .words = {"a", "b", "both"}});
   for (const auto& [name, place] :
        {std::pair("a-samples", &Choice::a_samples), {"b-samples", &Choice::b_samples}})
     options.push_back({name, place, For::kPictures, kHeading, "NUMBER",
-                       "Samples per pixel, for the variance; 1: it is that of the mean", 1,
-                       kMostSamples});
+                       "Samples per pixel, for those layers or the variance, if the file does not "
+                       "say them",
+                       1, kMostSamples});
   options.push_back({"freedom", &Choice::freedom, For::kPictures, kHeading, "NUMBER",
                      "Degrees of freedom of pictures of errors: independent estimates less one", 1,
                      1e9});

@@ -17,7 +17,7 @@ namespace lobelia {
 struct CompareChoice {
   std::vector<std::string>
       given;  ///< files, folders or sequences: the judged one, the reference, further judged ones
-  std::string pairs, pattern, sets, project;
+  std::string pairs, pattern, sets, project, reference_floor;
   std::vector<std::string> also_accept;
   std::string missing_reference;  ///< empty: "notice"
 
@@ -33,7 +33,7 @@ struct CompareChoice {
   std::string crop;
 
   std::vector<std::string> a_replicate, b_replicate;
-  std::string a_error, b_error, a_variance, b_variance, shared_noise;
+  std::string a_error, b_error, a_variance, b_variance, noise_from_layers, shared_noise;
   double a_samples = 0, b_samples = 0;  ///< of a pixel; 0: as the file says
   double freedom = kFreedomOfErrors;
   double significance = NoiseOptions().significance;

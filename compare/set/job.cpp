@@ -13,6 +13,8 @@
 namespace lobelia {
 namespace {
 
+namespace fs = std::filesystem;
+
 bool is_match(const std::string& match, const std::string& name) {
   return ::fnmatch(match.c_str(), name.c_str(), 0) == 0;
 }
@@ -85,6 +87,7 @@ CompareJob make_job(CompareChoice choice, const ReadScene& read_scene) {
     comparison.tolerance = parse_tolerance("--tolerance", choice.tolerance);
   if (!choice.project.empty()) apply_project(choice, job);
   job.pictures = pictures_of(choice);
+  job.c = choice.reference_floor;
   job.missing_reference_fails = choice.missing_reference == "fail";
   job.scene = choice.scene;
   job.ocio = choice.ocio;
@@ -139,10 +142,21 @@ std::optional<records::Known> known_of(const CompareJob& job, const std::string&
 }
 
 void check_companions(const CompareJob& job, const Pairing& pairing) {
-  if (pairing.is_by_name || is_one_pair(pairing) || job.noise.files("").empty()) return;
-  throw Error(ExitCode::kUsage,
-              "a picture of noise needs two files, or folders that are paired by name, in which it "
-              "has the same name");
+  const auto fail = [&](std::string_view what) {
+    throw Error(ExitCode::kUsage,
+                "{} needs two files, or folders that are paired by "
+                "name, in which it has the same name",
+                what);
+  };
+  const bool by_name = pairing.is_by_name;
+  if (!by_name && !is_one_pair(pairing)) {
+    if (!job.c.empty()) fail("--reference-floor");
+    if (!job.noise.files("").empty()) fail("a picture of noise");
+  }
+  std::error_code unknown;
+  if (!job.c.empty() && fs::is_directory(job.c, unknown) != by_name)
+    throw Error(ExitCode::kInput, "{} is {}a folder, but {} is{}; compare two files or two folders",
+                job.pictures.given.front(), by_name ? "" : "not ", job.c, by_name ? " not" : "");
 }
 
 }  // namespace lobelia

@@ -25,6 +25,7 @@ struct PairRule {
 
 struct CompareJob {
   PairingChoice pictures;
+  std::string c;               ///< the second reference, or a folder of them; may be empty
   std::string scene;           ///< the scene file for the mask, or empty
   std::string project, title;  ///< the project's file and what it calls the whole; may be empty
   std::string ocio;            ///< the file of the OpenColorIO configuration, or empty
@@ -73,7 +74,7 @@ std::optional<records::Known> known_of(const CompareJob& job, const std::string&
 inline bool is_one_pair(const Pairing& pairing) {
   return pairing.is_one_row && pairing.sets.size() == 2 + pairing.also_accepted;
 }
-/// Throws unless the pictures of noise can be told which pair they are of.
+/// Throws unless the second reference and the pictures of noise can be told which pair they are of.
 void check_companions(const CompareJob& job, const Pairing& pairing);
 
 }  // namespace lobelia

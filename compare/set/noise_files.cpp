@@ -4,6 +4,7 @@
 
 #include "base/pictures/image_io.hpp"
 #include "base/words/text.hpp"
+#include "compare/uncertainty/noise_layers.hpp"
 #include "profile/require_same_size.hpp"
 
 namespace lobelia {
@@ -24,16 +25,15 @@ NoiseFiles::NoiseFiles(const CompareChoice& choice, ComparisonOptions& options)
     : a_{choice.a_error, choice.a_variance, choice.a_replicate, choice.a_samples},
       b_{choice.b_error, choice.b_variance, choice.b_replicate, choice.b_samples},
       shared_(choice.shared_noise),
+      from_layers_(choice.noise_from_layers),
       freedom_(choice.freedom) {
   for (const auto& [letter, side] : {std::pair{"a", &a_}, {"b", &b_}}) {
-    if (side->samples > 0 && side->variance.empty())
-      throw Error(ExitCode::kUsage, "--{0}-samples is for --{0}-variance", letter);
-    if (side->samples == 0 && !side->variance.empty())
-      throw Error(
-          ExitCode::kUsage,
-          "--{0}-variance needs the samples of a pixel: give them with --{0}-samples, or 1 if the "
-          "variance is that of the mean",
-          letter);
+    if (side->given() && is_from_layers(letter))
+      throw Error(ExitCode::kUsage, "--noise-from-layers {0}: the noise of {0} is given twice",
+                  letter);
+    if (side->samples > 0 && !is_from_layers(letter) && side->variance.empty())
+      throw Error(ExitCode::kUsage, "--{0}-samples is for --noise-from-layers and --{0}-variance",
+                  letter);
     for (const std::string& given : {side->error, side->variance})
       if (given == "*" || given.rfind('*') + 1 > 1)
         throw Error(ExitCode::kUsage,
@@ -41,9 +41,13 @@ NoiseFiles::NoiseFiles(const CompareChoice& choice, ComparisonOptions& options)
                     "first, as in '*_variance.exr'",
                     printable(given));
   }
-  if (a_.given() || b_.given())
+  if (a_.given() || b_.given() || !from_layers_.empty())
     options.noise = NoiseOptions{
         .significance = choice.significance, .bootstraps = choice.bootstrap, .seed = choice.seed};
+}
+
+bool NoiseFiles::is_from_layers(const std::string& letter) const {
+  return from_layers_ == letter || from_layers_ == "both";
 }
 
 std::vector<std::filesystem::path> NoiseFiles::files(const std::string& name) const {
@@ -76,13 +80,23 @@ std::optional<PictureNoise> NoiseFiles::read_side(const Side& side, const std::s
   };
   const bool shared =
       shared_.empty() ? !side.error.empty() : shared_ == letter || shared_ == "both";
-  const char* const kind = !side.error.empty()     ? "error"
-                           : side.variance.empty() ? "replicate"
-                                                   : "variance";
+  const auto option = is_from_layers(letter)  ? std::string("--noise-from-layers")
+                      : !side.error.empty()   ? fmt::format("--{}-error", letter)
+                      : side.variance.empty() ? fmt::format("--{}-replicate", letter)
+                                              : fmt::format("--{}-variance", letter);
   try {
+    if (is_from_layers(letter))
+      return noise_of_layers(file, picture, {side.samples, freedom_, shared});
     if (!side.error.empty()) return noise_of_standard_errors(read(side.error), freedom_, shared);
-    if (!side.variance.empty())
-      return noise_of_variances(read(side.variance), side.samples, freedom_, shared);
+    if (!side.variance.empty()) {
+      const double samples = side.samples > 0 ? side.samples : picture.source.samples;
+      if (samples == 0)
+        throw Error(ExitCode::kUsage,
+                    "{} does not say how many samples a pixel has; give them with "
+                    "--{}-samples, or 1 if the variance is that of the mean",
+                    printable_path(file), letter);
+      return noise_of_variances(read(side.variance), samples, freedom_, shared);
+    }
     if (side.replicates.empty()) return std::nullopt;
     std::vector<Image> pictures;
     for (const std::string& replicate : side.replicates) pictures.push_back(read(replicate));
@@ -91,7 +105,7 @@ std::optional<PictureNoise> NoiseFiles::read_side(const Side& side, const std::s
     picture.image = std::move(mean.image);
     return std::move(mean.noise);
   } catch (const Error& error) {
-    throw Error(error.code(), "--{}-{}: {}", letter, kind, error.what());
+    throw Error(error.code(), "{}: {}", option, error.what());
   }
 }
 

@@ -29,8 +29,9 @@ class NoiseFiles {
   /// The endings of the files beside the pictures. Such files are no pictures of a set.
   std::vector<std::string> endings() const;
   /// Reads the pictures of the noise: the named files, or if the pair has a name in folders the files of that name in the
-  /// named folders, or those beside the pair's own files. `pair` become the means of themselves and their replicates.
-  /// Throws Error(kInput) for pictures that cannot be read, have another size, or are no standard errors.
+  /// named folders, those beside the pair's own files, or the layers of the pair's own files. `pair` become the means of
+  /// themselves and their replicates. Throws Error(kInput) for pictures that cannot be read, have another size, or are no
+  /// standard errors; errors of noise_of_layers().
   void read(const PairReport& files, PicturePair& pair, ComparisonOptions& options) const;
   /// Whether a picture is the mean of several files.
   bool has_replicates() const { return !a_.replicates.empty() || !b_.replicates.empty(); }
@@ -44,12 +45,13 @@ class NoiseFiles {
     double samples = 0;                   ///< of a pixel; 0: as the file says
     bool given() const { return !error.empty() || !variance.empty() || !replicates.empty(); }
   };
+  bool is_from_layers(const std::string& letter) const;
   std::optional<PictureNoise> read_side(const Side& side, const std::string& letter,
                                         const std::string& name, const std::string& file,
                                         Picture& picture) const;
 
   Side a_, b_;
-  std::string shared_;
+  std::string shared_, from_layers_;
   double freedom_ = kFreedomOfErrors;
 };
 

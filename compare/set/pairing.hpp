@@ -27,8 +27,9 @@ struct Pairing {
   std::vector<std::string> not_followed = {};
   /// Files that look like frames of a sequence, but their numbers are written in another way. Sorted.
   std::vector<std::string> misnamed = {};
-  bool is_one_row = false;        ///< files that were given one by one
-  bool is_by_name = false;        ///< folders: pictures of noise have the rows' names
+  bool is_one_row = false;  ///< files that were given one by one
+  bool is_by_name =
+      false;  ///< folders: pictures of noise and second references have the rows' names
   std::size_t also_accepted = 0;  ///< this many of the last sets are further references
 
   bool is_reference(std::size_t set) const;

@@ -75,15 +75,20 @@ void apply_pictures(const records::Project& project, const FromProject& from,
 /// The project's noise of a picture, where the choice has none of it.
 void fill_in_noise(const records::Project& project, const FromProject& from,
                    CompareChoice& choice) {
+  const auto is_from_layers = [&](const char* letter) {
+    return choice.noise_from_layers == letter || choice.noise_from_layers == "both";
+  };
   // A pattern such as "*_variance.exr", for a file beside each picture, has no folder.
   const auto file = [&](const std::string& given) {
     return given.starts_with('*') ? given : from(given);
   };
-  if (choice.a_error.empty() && choice.a_variance.empty() && choice.a_replicate.empty()) {
+  if (choice.a_error.empty() && choice.a_variance.empty() && choice.a_replicate.empty() &&
+      !is_from_layers("a")) {
     choice.a_variance = file(project.judged_variance);
     if (choice.a_samples == 0) choice.a_samples = project.judged_samples.value_or(0);
   }
-  if (choice.b_error.empty() && choice.b_variance.empty() && choice.b_replicate.empty()) {
+  if (choice.b_error.empty() && choice.b_variance.empty() && choice.b_replicate.empty() &&
+      !is_from_layers("b")) {
     choice.b_variance = file(project.reference_variance);
     if (choice.b_samples == 0) choice.b_samples = project.reference_samples.value_or(0);
   }

@@ -368,7 +368,7 @@ std::string why_not_pass(const PairReport& pair) {
 }
 
 records::Comparison pair_record(const PairReport& pair) {
-  records::Comparison record = comparison_record(*pair.comparison, pair.a, pair.b);
+  records::Comparison record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
   if (pair.sources) record.pictures = pictures_record(pair.sources->a, pair.sources->b);
   if (pair.layers) add_layers(record, pair.verdict(), *pair.layers);
   return record;
@@ -378,6 +378,7 @@ records::ComparisonSet set_record(const SetReport& report) {
   records::ComparisonSet record;
   record.a = report.a;
   record.b = report.b;
+  record.c = report.c;
   record.summary = count(report);
   const SetNotCompared left = not_compared(report);
   record.not_compared = {left.all.layers, left.all.alpha, left.all.overscan_pixels,

@@ -16,7 +16,7 @@ struct PairHashes {
 struct PairReport {
   std::string
       name;  ///< of the row, after the set's title and '/' if there are several to be judged
-  std::string a, b;  ///< files
+  std::string a, b, c;  ///< files; c is empty without a second reference
   std::optional<Comparison> comparison;
   std::string error;  ///< why there is no comparison; empty if there is one
   double seconds = 0;
@@ -35,7 +35,7 @@ struct PairReport {
 };
 
 struct SetReport {
-  std::string a, b;  ///< folders, or files of a single pair, or titles of sets
+  std::string a, b, c;  ///< folders, or files of a single pair, or titles of sets
   std::vector<PairReport> pairs;
   std::vector<std::string> missing;            ///< names that only the reference has
   std::vector<std::string> extra;              ///< names without a reference

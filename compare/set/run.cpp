@@ -16,7 +16,9 @@
 #include "base/system/threads.hpp"
 #include "base/words/text.hpp"
 #include "compare/accept/replacement.hpp"
+#include "compare/highlight_region.hpp"
 #include "compare/set/unjudged_limits.hpp"
+#include "profile/require_same_size.hpp"
 
 namespace lobelia {
 namespace {
@@ -44,13 +46,39 @@ HdrExposures exposures_or_why_not(const Image& reference, HdrExposures asked) {
   }
 }
 
+/// The options with the exposures of this pair, for another one.
+ComparisonOptions at_exposures_of(const Image& a, const Image& b, ComparisonOptions options) {
+  options.viewing = with_exposures(options.viewing, a, b);
+  options.viewing.automatic = false;
+  return options;
+}
+
+/// With `equal_allowed`, values that are not finite in both references are no difference.
+ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, Image& b,
+                        bool equal_allowed, const ComparisonOptions& options) {
+  Image c = read_picture(pair.c, layer).image;
+  if (!options.crop) require_same_size(c, b, pair.c, pair.b);
+  take_part(c, b, options);
+  if (!equal_allowed || is_finite(b)) return measure_reference_floor(c, b, options);
+  Image cleared = b;
+  clear_equal_nonfinite(c, cleared);
+  return measure_reference_floor(c, cleared, options);
+}
+
 /// Judges pictures that are ready, by the options of the pair.
-void judge_pair(PairReport& pair, PicturePair& pictures, ComparisonOptions& options,
-                bool choose_exposures) {
+void judge_pair(PairReport& pair, PicturePair& pictures, const CompareJob& job,
+                ComparisonOptions& options, bool choose_exposures) {
+  const Image& a = pictures.a.image;
+  Image& b = pictures.b.image;
   if (choose_exposures)
-    options.viewing.hdr_exposures =
-        exposures_or_why_not(pictures.b.image, *options.viewing.hdr_exposures);
+    options.viewing.hdr_exposures = exposures_or_why_not(b, *options.viewing.hdr_exposures);
+  std::optional<ReferenceFloor> floor;
+  if (!pair.c.empty())
+    floor = floor_of(pair, main_layer(pair.a, pair.b, job.layers).b, b,
+                     allows_equal_nonfinite(options, pictures.b.source),
+                     at_exposures_of(a, b, options));
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
+  pair.comparison->reference_floor = std::move(floor);
 }
 
 /// Everything besides the picture that two files hold.
@@ -79,7 +107,7 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, bool choose_expo
   const SteadyFile file_a(pair.a), file_b(pair.b);
   ComparisonOptions options = job.comparison;
   PicturePair pictures = read_compared(pair, job, options);
-  judge_pair(pair, pictures, options, choose_exposures);
+  judge_pair(pair, pictures, job, options, choose_exposures);
   compare_rest(pair, pictures, job, options);
   if (job.hash_files) pair.hashes = {file_a.digest(), file_b.digest()};
   if (look) look(pair, pictures.a.image, pictures.b.image);
@@ -161,7 +189,7 @@ std::vector<PairReport> pairs_of(const Pairing& pairing) {
     for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
       const std::vector<std::string>& files = pairing.rows[row].files;
       if (pairing.is_reference(set) || files[set].empty() || references.empty()) continue;
-      PairReport pair{name_of(pairing, row, set), files[set], references.front(), {}, {}, 0};
+      PairReport pair{name_of(pairing, row, set), files[set], references.front(), "", {}, {}, 0};
       pair.row = row;
       pair.set = set;
       if (pairing.is_by_name) pair.name_in_folders = pairing.rows[row].name;
@@ -170,6 +198,15 @@ std::vector<PairReport> pairs_of(const Pairing& pairing) {
     }
   }
   return pairs;
+}
+
+std::array<records::Named<std::string>, 2> reading_of(const PairReport& pair) {
+  std::array facts{reading_facts(pair.sources->a), reading_facts(pair.sources->b)};
+  if (const auto& noise = pair.comparison->uncertainty)
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (const auto& one = i == 0 ? noise->a : noise->b; one && !one->layer.empty())
+        facts[i].emplace_back("Noise", "layer " + printable(one->layer));
+  return facts;
 }
 
 PicturePair read_two(const CompareJob& job, const PairReport& pair) {
@@ -186,7 +223,7 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job,
 PairReport compare_two(const CompareJob& job, PairReport pair, PicturePair& pictures) {
   ComparisonOptions options = job.comparison;
   prepare(pictures, pair, job, options);
-  judge_pair(pair, pictures, options, has_automatic_exposures(options));
+  judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
   compare_rest(pair, pictures, job, options);
   require_judged_limits(job, {&pair, 1});
   return pair;
@@ -196,7 +233,7 @@ PairReport compare_in_memory(const CompareJob& job, PairReport pair, PicturePair
                              std::optional<PicturePair> alpha) {
   ComparisonOptions options = job.comparison;
   prepare(pictures, pair, job, options);
-  judge_pair(pair, pictures, options, has_automatic_exposures(options));
+  judge_pair(pair, pictures, job, options, has_automatic_exposures(options));
   if (alpha) {
     OtherLayers& others = pair.layers.emplace();
     if (job.layers.ignore_alpha || options.noise)
@@ -230,6 +267,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
     std::string& side = pairing.is_reference(set) ? report.b : report.a;
     side += (side.empty() ? "" : ", ") + title;
   }
+  report.c = job.c;
   report.passed_over = pairing.passed_over;
   report.not_followed = pairing.not_followed;
   report.misnamed = pairing.misnamed;
@@ -242,6 +280,8 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
         (has_reference ? report.missing : report.extra).push_back(name_of(pairing, row, set));
     }
   report.pairs = pairs_of(pairing);
+  for (PairReport& pair : report.pairs)
+    if (!job.c.empty()) pair.c = file_of(job.c, pair.name_in_folders).string();
   const bool automatic = has_automatic_exposures(job.comparison);
   if (automatic && !one)
     job.comparison.viewing.hdr_exposures = exposures_for_all(report.pairs, job);

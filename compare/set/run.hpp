@@ -1,6 +1,7 @@
 // Compares the pairs of a set, or one pair.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ std::vector<PairReport> pairs_of(const Pairing& pairing);
 /// so no more pairs are in memory than there are threads. Those are one more than processors, unless fewer are asked for:
 /// a thread waits while another process decodes its picture, and would leave a processor idle each time they take turns.
 void for_each_pair(std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// How the files of a compared pair became light, A first: reading_facts(), and the layers that have their noise.
+std::array<records::Named<std::string>, 2> reading_of(const PairReport& pair);
 
 /// Reads the pair as it is compared: the part of the chosen layer, or of the mean of its replicates. `job` is that of the
 /// pair. Sets what depends on the pictures in `options`. Throws as read_pair().

@@ -129,6 +129,14 @@ std::string SlurmClient::cancel(const std::string& name) const {
   return run({"scancel", "--me", "--name=" + name}).why;
 }
 
+std::string SlurmClient::ping() const {
+  const Output output = run({"scontrol", "ping"});
+  if (!output.why.empty()) return output.why;
+  for (const std::string& line : output.lines)
+    if (line.ends_with(" is UP")) return "";
+  return output.lines.empty() ? "scontrol ping says nothing" : printable(output.lines.front(), 300);
+}
+
 SlurmAnswer<std::map<std::string, std::string>> SlurmClient::config() const {
   return ask({"scontrol", "show", "config"}, parse_config);
 }

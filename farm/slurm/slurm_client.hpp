@@ -42,6 +42,8 @@ class SlurmClient {
   SlurmAnswer<std::vector<SlurmLivingJob>> living_jobs(const std::string& name) const;
   /// Cancels all of the user's jobs of that name. Returns why not; empty on success.
   std::string cancel(const std::string& name) const;
+  /// Returns why the controller does not answer; empty if it does.
+  std::string ping() const;
   SlurmAnswer<std::map<std::string, std::string>> config() const;
   /// The nodes of `partition`, which may be several, separated by commas; of the default one if empty.
   SlurmAnswer<std::vector<SlurmNode>> node_list(const std::string& partition) const;

@@ -63,7 +63,8 @@ void write_metrics(Html& html, const ShownFarm& farm, const EngineChange& engine
   write_rows(html, farm, rest);
 }
 
-void write_engine(Html& html, const ShownFarm& farm, const EngineChange& engine) {
+void write_engine(Html& html, const ShownFarm& farm, const EngineChange& engine,
+                  const CellHistory& past) {
   Attributes attributes = {{"class", "engine-change"}};
   if (engine.change != Change::kSame) attributes.push_back({"open", "open"});
   const Tag details(html, "details", attributes);
@@ -74,6 +75,8 @@ void write_engine(Html& html, const ShownFarm& farm, const EngineChange& engine)
     write_badge(html, info(engine.change).name, info(engine.change).mark, info(engine.change).word);
     html.text(fmt::format(" · {} before, {} now", engine.was, engine.now));
   }
+  const auto line = std::ranges::find(past.timelines, engine.engine, &Timeline::engine);
+  if (line != past.timelines.end()) write_timeline(html, farm, *line);
   write_metrics(html, farm, engine);
 }
 
@@ -139,7 +142,7 @@ void write_cell_changes(Html& html, const ShownFarm& farm, const History& histor
   if (past.before)
     for (const Flaw& flaw : past.before->flaws)
       html.element("p", "Of the earlier run: " + flaw.message);
-  for (const EngineChange& engine : past.change.engines) write_engine(html, farm, engine);
+  for (const EngineChange& engine : past.change.engines) write_engine(html, farm, engine, past);
   if (past.before && past.before->has_record) write_pictures_before(html, farm, cell, *past.before);
 }
 

@@ -9,6 +9,7 @@
 #include "base/system/error.hpp"
 #include "base/system/no_resources.hpp"
 #include "base/words/text.hpp"
+#include "gallery/cells/cell_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -96,6 +97,19 @@ CheckedCell check_earlier_cell(const EarlierRun& run, const CellEntry& entry) {
   return cell;
 }
 
+TimePoint point_of(const CheckedCell& cell, const std::string& engine, const std::string& metric,
+                   std::string date, std::string name) {
+  TimePoint point{std::move(date), std::move(name), {}, {}, "not compared"};
+  const CheckedComparison* comparison = cell.find_comparison(engine);
+  if (!comparison) return point;
+  point.verdict = verdict_words(*comparison);
+  if (comparison->doubt || !comparison->problem.empty()) return point;
+  point.value = comparison->metric(metric);
+  const records::Named<double> limits = limits_of(comparison->record);
+  if (const double* limit = records::find(limits, metric)) point.limit = *limit;
+  return point;
+}
+
 }  // namespace
 
 std::string History::since() const {
@@ -119,34 +133,52 @@ std::vector<std::optional<std::size_t>> match_cells(const records::Farm& now,
   return match;
 }
 
-History read_history(const fs::path& run, const ShownFarm& farm, const fs::path& earlier) {
-  if (earlier.empty()) return {};
-  std::error_code ignored;
-  if (fs::equivalent(earlier, run, ignored))
-    throw Error(ExitCode::kUsage,
-                "--baseline: '{}' is RUN itself; give the folder of an earlier run",
-                printable(earlier.string()));
-  if (is_link(earlier / "farm.json"))
-    throw Error(ExitCode::kInput,
-                (earlier / "farm.json").string() + ": a link; links are not followed");
-  EarlierRun one{earlier,
-                 name_of(earlier),
-                 date_of(earlier),
-                 read_farm(earlier, farm.metrics, farm.texts),
-                 {}};
-  one.match = match_cells(farm.record, one.farm.record);
-  return {std::move(one)};
+History read_history(const fs::path& run, const ShownFarm& farm,
+                     const std::vector<fs::path>& earlier) {
+  History history{date_of(run), {}};
+  for (const fs::path& directory : earlier) {
+    std::error_code ignored;
+    if (fs::equivalent(directory, run, ignored))
+      throw Error(ExitCode::kUsage,
+                  "--baseline: '{}' is RUN itself; give the folder of an earlier run",
+                  printable(directory.string()));
+    if (is_link(directory / "farm.json"))
+      throw Error(ExitCode::kInput,
+                  (directory / "farm.json").string() + ": a link; links are not followed");
+    EarlierRun one{directory,
+                   name_of(directory),
+                   date_of(directory),
+                   read_farm(directory, farm.metrics, farm.texts),
+                   {}};
+    one.match = match_cells(farm.record, one.farm.record);
+    history.runs.push_back(std::move(one));
+  }
+  return history;
 }
 
 CellHistory history_of(const History& history, const ShownFarm& farm, std::size_t index,
                        const CheckedCell& cell) {
-  const EarlierRun& run = history.baseline();
   CellHistory result;
   result.change.change = Change::kNew;
-  if (const auto place = run.match[index]) {
-    result.before = check_earlier_cell(run, run.farm.cells[*place]);
-    result.change = compare_cells(*result.before, cell, farm);
+  for (const CheckedComparison& comparison : cell.comparisons)
+    if (std::string metric = main_metric(comparison.record); !metric.empty())
+      result.timelines.push_back({cell.other_of(comparison), std::move(metric), {}});
+  const auto add_points = [&](const CheckedCell& at, const std::string& date,
+                              const std::string& name) {
+    for (Timeline& line : result.timelines)
+      line.points.push_back(point_of(at, line.engine, line.metric, date, name));
+  };
+  for (const EarlierRun& run : history.runs) {
+    const auto place = run.match[index];
+    CheckedCell was;
+    was.hub = run.farm.hub;
+    if (place) was = check_earlier_cell(run, run.farm.cells[*place]);
+    add_points(was.hub == cell.hub ? was : CheckedCell{}, run.date, run.name);
+    if (&run != &history.baseline() || !place) continue;
+    result.change = compare_cells(was, cell, farm);
+    result.before = std::move(was);
   }
+  add_points(cell, history.date, "this run");
   return result;
 }
 

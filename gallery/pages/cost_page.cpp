@@ -23,10 +23,19 @@ constexpr char kRecord[] = "cost/cost.json", kCsv[] = "cost/cost.csv";
 constexpr char kTitle[] = "What accuracy costs in time";
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kChartWidth = 800;          // beside a table
+constexpr int kNarrowWidth = 380;         // on a phone
 constexpr std::size_t kMostNamed = 12;    // points that all have their name, and not a number
 constexpr std::size_t kMaxSentences = 8;  // about a front; the rest can be unfolded
 
-double time_of(const CostVariant& variant) { return variant.seconds.median; }
+/// Empty for seconds.
+std::string cost_unit(const CostTable& table) { return table.unit == "s" ? "" : table.unit; }
+
+double cost_of(const CostVariant& variant) {
+  return variant.seconds ? variant.seconds->median : variant.count.value_or(kUnknown);
+}
+double spread_of(const CostVariant& variant) {
+  return variant.seconds ? variant.seconds->spread : 0;
+}
 
 double error_of(const CostVariant& variant, const CostError& error) {
   const double* value = records::find(variant.errors, error.id);
@@ -38,12 +47,19 @@ double error_spread_of(const CostVariant& variant, const CostError& error) {
   return spread ? *spread : 0;
 }
 
+std::string cost_text(const CostTable& table, double cost) {
+  if (std::isnan(cost)) return "–";
+  return cost_unit(table).empty() ? short_time_text(cost) : number_text(cost);
+}
+
+bool is_timed(const CostTable& table) { return cost_unit(table).empty(); }
+
 /// "± 4 %", or that there was one run, which tells no spread.
 std::string spread_text(const CostVariant& variant) {
-  const auto& [median, spread, least, most, rounds] = variant.seconds;
-  if (rounds == 1) return "one run";
-  if (spread == 0) return fmt::format("the same in {} runs", rounds);
-  return fmt::format("± {} %", number_text(100 * spread, 2));
+  if (!variant.seconds) return "–";
+  if (variant.seconds->rounds == 1) return "one run";
+  if (spread_of(variant) == 0) return fmt::format("the same in {} runs", variant.seconds->rounds);
+  return fmt::format("± {} %", number_text(100 * spread_of(variant), 2));
 }
 
 std::vector<std::string> parts_of(std::string_view meaning) {
@@ -71,11 +87,15 @@ std::string short_title(const CostTable& table, const CostError& error) {
   return math_text(title.empty() ? parts.front() : title);
 }
 
-/// The fastest first: the numbers of the rows and points.
+/// Those whose cost is known, the cheapest first, then the others: the numbers of the rows and points.
 std::vector<const CostVariant*> in_order(const CostTable& table) {
   std::vector<const CostVariant*> variants;
   for (const CostVariant& variant : table.variants) variants.push_back(&variant);
-  std::ranges::stable_sort(variants, {}, [](const CostVariant* one) { return time_of(*one); });
+  // Unknown costs last: a NaN cannot be sorted.
+  std::ranges::stable_sort(variants, {}, [](const CostVariant* variant) {
+    const double cost = cost_of(*variant);
+    return std::isnan(cost) ? HUGE_VAL : cost;
+  });
   return variants;
 }
 
@@ -87,39 +107,49 @@ bool is_on_front(const CostTable& table, const CostError& error, const CostVaria
   return front && std::ranges::find(front->variants, variant.name) != front->variants.end();
 }
 
-Chart chart_of(const CostTable& table, const CostError& error, const std::string& id) {
-  ErrorTimes times{id, math_text(table.title), table.per, "", math_text(error.meaning), {}};
+Chart chart_of(const CostTable& table, const CostError& error, const std::string& id, bool narrow) {
+  ErrorTimes times{
+      id, math_text(table.title), table.per, math_text(cost_unit(table)), math_text(error.meaning),
+      {}};
   int row = 0;
   for (const CostVariant* one : in_order(table)) {
     const CostVariant& variant = *one;
-    const double time = time_of(variant), value = error_of(variant, error);
+    const double cost = cost_of(variant), spread = spread_of(variant),
+                 value = error_of(variant, error);
     const std::string name = spoken_name(variant.name), place = std::to_string(++row);
     const bool named = table.variants.size() <= kMostNamed;
-    times.points.push_back(
-        {named ? name : place + " " + name,
-         fmt::format("{} {}: {}, {}, {} {}", place, name, short_time_text(time),
-                     spread_text(variant), short_title(table, error), error_text(value)),
-         time, variant.seconds.spread * time, value, error_spread_of(variant, error),
-         is_on_front(table, error, variant), variant.name, named ? name : place});
+    times.points.push_back({named    ? name
+                            : narrow ? place
+                                     : place + " " + name,
+                            fmt::format("{} {}: {}{}, {} {}", place, name, cost_text(table, cost),
+                                        is_timed(table) ? ", " + spread_text(variant) : "",
+                                        short_title(table, error), error_text(value)),
+                            cost, spread * cost, value, error_spread_of(variant, error),
+                            is_on_front(table, error, variant), variant.name,
+                            named ? name : place});
   }
   Chart chart = error_time_chart(times);
-  chart.width = kChartWidth;
+  chart.width = narrow ? kNarrowWidth : kChartWidth;
+  if (narrow && times.points.size() > kMostNamed) {  // as many points need room for their numbers
+    chart.height = std::min(720, 400 + 5 * int(times.points.size()));
+    chart.marker_radius = 3;
+  }
   return chart;
 }
 
 /// A point alone shows nothing.
 bool is_drawable(const CostTable& table, const CostError& error) {
   std::size_t points = 0;
-  for (const ChartSeries& series : chart_of(table, error, "").series)
+  for (const ChartSeries& series : chart_of(table, error, "", false).series)
     points += series.markers ? series.x.size() : 0;
   return points > 1;
 }
 
-/// The fastest first.
+/// The cheapest first.
 std::vector<const CostVariant*> front_of(const CostTable& table, const CostError& error) {
   std::vector<const CostVariant*> front;
   for (const CostVariant* variant : in_order(table))
-    if (is_on_front(table, error, *variant) && time_of(*variant) > 0 &&
+    if (is_on_front(table, error, *variant) && cost_of(*variant) > 0 &&
         error_of(*variant, error) >= 0)
       front.push_back(variant);
   return front;
@@ -130,24 +160,28 @@ std::string finding_of(const CostTable& table) {
   if (table.errors.empty() || table.variants.empty()) return "";
   const CostError& error = table.errors.front();
   const std::vector<const CostVariant*> front = front_of(table, error);
-  const auto time = [](const CostVariant& variant) { return short_time_text(time_of(variant)); };
+  const auto cost = [&](const CostVariant& variant) {
+    return cost_text(table, cost_of(variant)) + (is_timed(table) ? "" : " " + cost_unit(table));
+  };
   const auto told = [&](const CostVariant& variant) {
     const double value = error_of(variant, error);
-    return time(variant) + (value == 0 ? " and no error" : " and an error of " + error_text(value));
+    return cost(variant) + (value == 0 ? " and no error" : " and an error of " + error_text(value));
   };
   const auto name = [](const CostVariant& variant) {
     return "“" + spoken_name(variant.name) + "”";
   };
   if (table.variants.size() == 1)
     return fmt::format("Only {} was measured, at {}: there is nothing to compare it with.",
-                       name(table.variants[0]), time(table.variants[0]));
+                       name(table.variants[0]), cost(table.variants[0]));
   if (front.empty()) return "";
-  const CostVariant &fast = *front.front(), &exact = *front.back();
+  const CostVariant &cheap = *front.front(), &exact = *front.back();
   if (front.size() == 1)
-    return fmt::format("No variant beats {} in time or in error: {}.", name(fast), told(fast));
-  return fmt::format(
-      "The fastest is {}, with {}. The least error has {}, with {}: {} times the time.", name(fast),
-      told(fast), name(exact), told(exact), number_text(time_of(exact) / time_of(fast), 2));
+    return fmt::format("No variant beats {} in time or in error: {}.", name(cheap), told(cheap));
+  const double times = cost_of(exact) / cost_of(cheap);
+  return fmt::format("The {} is {}, with {}. The least error has {}, with {}: {} times the {}.",
+                     is_timed(table) ? "fastest" : "cheapest", name(cheap), told(cheap),
+                     name(exact), told(exact), number_text(times, 2),
+                     is_timed(table) ? "time" : cost_unit(table));
 }
 
 void write_sentences(Html& html, const std::vector<std::string>& sentences) {
@@ -165,13 +199,15 @@ void write_sentences(Html& html, const std::vector<std::string>& sentences) {
 
 void write_ways(Html& html, const CostTable& table) {
   const Tag details(html, "details", {{"class", "variants"}});
-  html.element("summary",
-               table.variants.size() == 1
-                   ? "The one variant"
-                   : fmt::format("All {} variants, the fastest first", table.variants.size()));
+  html.element("summary", table.variants.size() == 1
+                              ? "The one variant"
+                              : fmt::format("All {} variants, the {} first", table.variants.size(),
+                                            is_timed(table) ? "fastest" : "cheapest"));
   const Tag scroll(html, "div", scroll_box("Variants: " + math_text(table.title)));
   const Tag element(html, "table", {{"class", "figures"}});
-  std::vector<std::string> titles = {"no.", "variant", "time per " + table.per, "spread"};
+  std::vector<std::string> titles = {
+      "no.", "variant", (is_timed(table) ? "time per " : cost_unit(table) + " per ") + table.per};
+  if (is_timed(table)) titles.emplace_back("spread");
   for (const CostError& error : table.errors) titles.push_back(short_title(table, error));
   write_columns(html, titles);
   const Tag body(html, "tbody");
@@ -187,14 +223,15 @@ void write_ways(Html& html, const CostTable& table) {
     };
     figure(std::to_string(++number));
     html.element("th", {{"scope", "row"}}, spoken_name(variant->name));
-    figure(short_time_text(time_of(*variant)));
-    figure(spread_text(*variant));
+    figure(cost_text(table, cost_of(*variant)));
+    if (is_timed(table)) figure(spread_text(*variant));
     for (const CostError& error : table.errors)
       figure((is_on_front(table, error, *variant) ? "● " : "") +
              error_text(error_of(*variant, error)));
   }
 }
 
+/// The chart for screens and for phones.
 void write_chart(Html& html, const CostTable& table, std::size_t number, std::size_t e) {
   const CostError& error = table.errors[e];
   const std::string id = fmt::format("cost-{}-{}", number, e), title = short_title(table, error);
@@ -202,7 +239,10 @@ void write_chart(Html& html, const CostTable& table, std::size_t number, std::si
       html, "figure",
       {{"class", "chart-figure"}, {"data-name", table.id + "-" + error.id}, {"data-title", title}});
   html.element("h3", math_text(error.meaning));
-  html.raw(draw_chart(chart_of(table, error, id)));
+  for (const bool narrow : {false, true}) {
+    const Tag box(html, "div", {{"class", narrow ? "narrow" : "wide"}});
+    html.raw(draw_chart(chart_of(table, error, narrow ? id + "-narrow" : id, narrow)));
+  }
 }
 
 /// One chart, and those by the other errors below it.
@@ -257,10 +297,11 @@ std::string dearest_step(const records::Cost& record) {
   for (const CostTable& table : record.tables)
     for (const CostError& error : table.errors) {
       std::vector<const CostVariant*> front = front_of(table, error);
-      std::erase_if(front,
-                    [&](const CostVariant* variant) { return error_of(*variant, error) == 0; });
+      std::erase_if(front, [&](const CostVariant* variant) {
+        return !variant->seconds || error_of(*variant, error) == 0;
+      });
       for (std::size_t i = 1; i < front.size(); ++i) {
-        const double time = time_of(*front[i]) / time_of(*front[i - 1]);
+        const double time = cost_of(*front[i]) / cost_of(*front[i - 1]);
         const double gain = error_of(*front[i - 1], error) / error_of(*front[i], error);
         if (time < 1.5 || gain < 2 || std::log(time) / std::log(gain) <= dearest) continue;
         dearest = std::log(time) / std::log(gain);

@@ -20,6 +20,7 @@ using records::HighlightTable, records::HighlightTables, records::LobeTable, rec
 
 constexpr char kRecord[] = "explorer/tables.json";
 constexpr char kTitle[] = "Highlights to explore";
+constexpr double kShown = 64;  // the exponent of the page without script
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// A row of numbers for each exponent.
@@ -28,6 +29,15 @@ using Rows = std::vector<std::vector<std::int64_t>>;
 constexpr std::size_t kMaxExponents = 1000, kMaxPoints = 1000;
 /// A double holds every whole number up to here.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
+
+/// The numbers from 0 to `reach` at which the tables have values (docs/records.md).
+std::vector<double> spread(double reach, double exponent, std::size_t count) {
+  const double a = std::asinh(reach * std::sqrt(exponent));
+  std::vector<double> result;
+  for (std::size_t i = 0; i < count; ++i)
+    result.push_back(reach * std::sinh(a * double(i) / double(count - 1)) / std::sinh(a));
+  return result;
+}
 
 void require(bool condition, const char* what) {
   if (!condition) throw Error(ExitCode::kInput, "{}: {}", kRecord, what);
@@ -90,10 +100,40 @@ void require_drawable(const HighlightTables& tables) {
   }
 }
 
+/// The albedo of an integer in `seen` or `lit`.
+double albedo_of(const HighlightTable& highlight, std::int64_t number) {
+  return std::exp(double(number) * highlight.unit);
+}
+
+/// The incidence of every number of an albedo, in radians, from grazing to normal.
+std::vector<double> incidences_of(const HighlightTables& tables, double n, std::size_t count) {
+  std::vector<double> result = spread(tables.most_grazing, n, count);
+  for (double& incidence : result) incidence = tables.most_grazing - incidence;
+  return result;
+}
+
+/// The share of a beam that is reflected, at each of the exponent's incidences.
+std::vector<double> beam_of(const HighlightTable& highlight, std::size_t exponent,
+                            const std::vector<double>& incidences) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < incidences.size(); ++i)
+    result.push_back(highlight.lit.empty() ? albedo_of(highlight, highlight.seen[exponent][i])
+                                           : albedo_of(highlight, highlight.lit[exponent][i]) /
+                                                 std::cos(incidences[i]));
+  return result;
+}
+
 /// The index of the exponent nearest to `n`.
 std::size_t nearest(const std::vector<double>& exponents, double n) {
   const auto distance = [n](double a, double b) { return std::abs(a - n) < std::abs(b - n); };
   return std::size_t(std::ranges::min_element(exponents, distance) - exponents.begin());
+}
+
+/// The title of a model or a lobe.
+template <class T>
+std::string title_of(const std::vector<T>& all, const std::string& name) {
+  const auto one = std::ranges::find(all, name, &T::name);
+  return one == all.end() ? name : one->title;
 }
 
 void write_lobes(Html& html, const HighlightTables& tables) {
@@ -119,6 +159,29 @@ void write_lobes(Html& html, const HighlightTables& tables) {
   }
 }
 
+void write_highlights(Html& html, const HighlightTables& tables, std::size_t at) {
+  const Tag scroll(html, "div", scroll_box("Highlights"));
+  const Tag table(html, "table", {{"class", "figures"}});
+  html.element("caption", fmt::format("Every model with every lobe at n = {}",
+                                      number_text(tables.exponents[at], 4)));
+  write_columns(html, {"model", "lobe", "coefficient, exact", "as the paper prints it",
+                       "energy at normal incidence", "most seen", "most of a beam"});
+  const Tag body(html, "tbody");
+  for (const HighlightTable& one : tables.highlights) {
+    const auto incidences = incidences_of(tables, tables.exponents[at], one.seen[at].size());
+    const double most_seen = albedo_of(one, std::ranges::max(one.seen[at]));
+    const double most_lit = std::ranges::max(beam_of(one, at, incidences));
+    const Tag row(html, "tr");
+    html.element("th", {{"scope", "row"}}, title_of(tables.models, one.model));
+    html.element("td", title_of(tables.lobes, one.lobe));
+    for (const std::string& text :
+         {number_text(one.exact[at], 5), one.paper.empty() ? "–" : number_text(one.paper[at], 5),
+          number_text(albedo_of(one, one.seen[at].back()), 4), number_text(most_seen, 4),
+          number_text(most_lit, 4)})
+      html.element("td", {{"class", "number"}}, text);
+  }
+}
+
 records::ExplorerPage page_data(HighlightTables tables) {
   for (records::ModelTable& model : tables.models)
     model.coefficient = math_text(model.coefficient), model.angle = math_text(model.angle);
@@ -128,6 +191,7 @@ records::ExplorerPage page_data(HighlightTables tables) {
 
 void write(ViewPage& page, const HighlightTables& tables, const RunFiles&) {
   require_drawable(tables);
+  const std::size_t at = nearest(tables.exponents, kShown);
   Html& html = page.main;
   write_lead(
       html, kTitle,
@@ -138,6 +202,9 @@ void write(ViewPage& page, const HighlightTables& tables, const RunFiles&) {
     const Tag section(html, "section");
     html.element("h2", "At a few exponents");
     write_lobes(html, tables);
+    const Tag details(html, "details");
+    html.element("summary", fmt::format("All {} highlights", tables.highlights.size()));
+    write_highlights(html, tables, at);
   }
   std::string errors;
   for (const auto& [name, error] : numbers_of(tables.error))

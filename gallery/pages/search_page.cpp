@@ -1,4 +1,4 @@
-// The page on the cheapest lobes: error over operations.
+// The page on the cheapest lobes: error over operations, for the whole range of exponents and for each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,47 +32,73 @@ std::string range_of(const LobeSearch& found) {
                              : fmt::format("n = {} and above", number_text(found.least_exponent));
 }
 
-Chart chart_of(const LobeSearch& found) {
-  ErrorTimes times{"search", range_of(found), "value", "operations", "largest error, of the peak",
-                   {}};
+/// A chart of the lobes; errors[i] is the error of lobe i.
+std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
+                     const std::string& id, const std::string& title, bool narrow) {
+  ErrorTimes times{id, title, "value", "operations", "largest error, of the peak", {}};
   double nearest = std::numeric_limits<double>::infinity(), dearest = 1;
   std::map<int, double> nearest_of_price;
-  for (const SearchedLobe& lobe : found.lobes)
-    if (!is_known(lobe)) {
-      const auto [it, is_first] = nearest_of_price.emplace(lobe.price, lobe.errors.max);
-      it->second = std::min(it->second, lobe.errors.max);
+  for (std::size_t i = 0; i < found.lobes.size(); ++i)
+    if (const SearchedLobe& lobe = found.lobes[i]; !is_known(lobe)) {
+      const auto [it, is_first] = nearest_of_price.emplace(lobe.price, errors[i]);
+      it->second = std::min(it->second, errors[i]);
     }
   ChartSeries known{"the paper's and Schlick's", {}, {}, 3, true};
-  for (const SearchedLobe& lobe : found.lobes) {
-    const double price = lobe.price, error = lobe.errors.max;
+  for (std::size_t i = 0; i < found.lobes.size(); ++i) {
+    const SearchedLobe& lobe = found.lobes[i];
+    const double price = lobe.price;
     const std::string label = fmt::format("{}: {} operations, error {}; {}", lobe.name, lobe.price,
-                                          number_text(error, 4), math_text(lobe.formula));
+                                          number_text(errors[i], 4), math_text(lobe.formula));
     dearest = std::max(dearest, price);
     if (is_known(lobe)) {
       known.x.push_back(price);
-      known.y.push_back(error);
+      known.y.push_back(errors[i]);
       known.point_labels.push_back(label);
       known.point_names.push_back(lobe.name);
       known.point_keys.push_back(lobe.name);
       continue;
     }
     // Lobes are cheapest first; of one price the nearest is on the front.
-    const bool on_front = error <= nearest_of_price[lobe.price] && error < nearest;
-    if (on_front) nearest = error;
-    times.points.push_back({lobe.name, label, price, 0, error, 0, on_front, lobe.name, lobe.name});
+    const bool on_front = errors[i] <= nearest_of_price[lobe.price] && errors[i] < nearest;
+    if (on_front) nearest = errors[i];
+    times.points.push_back(
+        {lobe.name, label, price, 0, errors[i], 0, on_front, lobe.name, lobe.name});
   }
   Chart chart = error_time_chart(times);
   chart.x = {"operations, a division counted as six", 0, dearest + 1};
-  chart.width = 800;
+  chart.width = narrow ? 380 : 800;
   chart.series.push_back(std::move(known));
   for (const double error : chart.series.back().y) chart.y.to = std::max(chart.y.to, error);
-  return chart;
+  return draw_chart(chart);
 }
 
-void write_chart(Html& html, const LobeSearch& found) {
-  const Tag figure(html, "figure", {{"class", "chart-figure"}, {"data-name", range_of(found)}});
-  html.element("figcaption", range_of(found));
-  html.raw(draw_chart(chart_of(found)));
+void write_chart(Html& html, const LobeSearch& found, const std::vector<double>& errors,
+                 std::size_t number, const std::string& shown) {
+  Attributes attributes{{"class", "chart-figure"}, {"data-exponent", shown}, {"data-name", shown}};
+  if (number > 0) attributes.emplace_back("hidden", "hidden");
+  const Tag figure(html, "figure", attributes);
+  html.element("figcaption", shown);
+  for (const bool narrow : {false, true}) {
+    const Tag box(html, "div", {{"class", narrow ? "narrow" : "wide"}});
+    html.raw(chart_of(found, errors, fmt::format("search-{}{}", number, narrow ? "-narrow" : ""),
+                      shown, narrow));
+  }
+}
+
+void write_charts(Html& html, const LobeSearch& found) {
+  const Tag charts(html, "div", {{"class", "exponents"}});
+  std::vector<double> errors;
+  for (const SearchedLobe& lobe : found.lobes) errors.push_back(lobe.errors.max);
+  write_chart(html, found, errors, 0, range_of(found));
+  const std::size_t count = std::ranges::min(found.lobes, {}, [](const SearchedLobe& l) {
+                              return l.by_exponents.size();
+                            }).by_exponents.size();
+  for (std::size_t e = 0; e < count; ++e) {
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      errors[i] = found.lobes[i].by_exponents[e].error;
+    write_chart(html, found, errors, e + 1,
+                "n = " + number_text(found.lobes[0].by_exponents[e].exponent, 4));
+  }
 }
 
 void write_lobes(Html& html, const LobeSearch& found, const std::filesystem::path& run,
@@ -138,7 +164,7 @@ void write(ViewPage& page, const LobeSearch& found, const RunFiles& run) {
     if (const std::string finding = finding_of(found); !finding.empty())
       html.element("p", {{"class", "finding"}}, finding);
     const Tag pair(html, "div", {{"class", "cost-pair"}});
-    write_chart(html, found);
+    write_charts(html, found);
     write_lobes(html, found, run, page);
   }
   write_source(html, shell_join(found.command), kRecord);

@@ -9,6 +9,7 @@
 #include "base/words/numbers.hpp"
 #include "base/words/svg_chart.hpp"
 #include "base/words/text.hpp"
+#include "gallery/cells/picture.hpp"
 #include "gallery/pages/page.hpp"
 #include "gallery/pages/page_text.hpp"
 #include "gallery/pages/views.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 using records::VerifyStability, records::StabilityErrors, records::StabilityCurve;
 
-constexpr char kRecord[] = "stability/stability.json";
+constexpr char kRecord[] = "stability/stability.json", kDirectory[] = "stability";
 constexpr char kTitle[] = "The hard cases";
 constexpr double kMinError = 1e-18, kMaxError = 10;  // in charts; a NaN is drawn at the top
 constexpr char kShownGroup[] = "lobe";
@@ -147,6 +148,50 @@ void write_charts(Html& html, const VerifyStability& data) {
                 fmt::format("A modified Phong highlight of n = {}.", power_text(curve->exponent)));
 }
 
+void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
+                   const std::string& file, const std::string& words) {
+  const Tag figure(html, "figure");
+  html.element("figcaption", words);
+  const Picture picture = inspect_picture(run / kDirectory, file);
+  if (!picture.shown())
+    return write_absence(html, picture.file.empty() ? "not recorded" : picture.why_not);
+  page.files.push_back(std::string(kDirectory) + "/" + file);
+  html.empty("img", {{"src", link_to({kDirectory, file})},
+                     {"alt", words},
+                     {"width", std::to_string(picture.width)},
+                     {"height", std::to_string(picture.height)},
+                     {"loading", "lazy"}});
+}
+
+/// The pictures lie beside the record, whatever path it has for them.
+std::string name_of(const std::string& file) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  if (!name.empty() && !is_plain_name(name))
+    throw Error(ExitCode::kInput, "{}: '{}' is no plain name of a file", kRecord, printable(name));
+  return name;
+}
+
+void write_pictures(ViewPage& page, const std::filesystem::path& run, const VerifyStability& data) {
+  if (data.pictures.empty()) return;
+  Html& html = page.main;
+  const Tag section(html, "section");
+  html.element("h2", "Close to a highlight");
+  html.element(
+      "p",
+      "A modified Phong highlight that fills the picture. Errors relative to the peak: black 10⁻⁸ "
+      "and below, blue 10⁻⁶, red 10⁻⁴, yellow 10⁻², white 1; magenta is no number.");
+  for (const auto& [exponent, naive, ours] : data.pictures) {
+    html.element("h3", "n = " + power_text(exponent));
+    const Tag row(html, "div", {{"class", "picture-four"}});
+    write_picture(html, page, run, name_of(naive.png), "naive float32");
+    write_picture(html, page, run, name_of(ours.png), "ours");
+    write_picture(html, page, run, name_of(naive.error),
+                  "error of naive: at most " + error_text(naive.largest_error_of_peak));
+    write_picture(html, page, run, name_of(ours.error),
+                  "error of ours: at most " + error_text(ours.largest_error_of_peak));
+  }
+}
+
 void write_error(Html& html, const StabilityErrors& error) {
   html.element("td", {{"class", std::isfinite(error.of_peak) ? "number" : "number over"}},
                error_text(error.of_peak));
@@ -200,7 +245,7 @@ void write_group(Html& html, const VerifyStability& data, const std::string& gro
     if (one.group == group) write_case(html, one);
 }
 
-void write(ViewPage& page, const VerifyStability& data, const RunFiles&) {
+void write(ViewPage& page, const VerifyStability& data, const RunFiles& run) {
   Html& html = page.main;
   write_lead(
       html, kTitle,
@@ -217,6 +262,7 @@ void write(ViewPage& page, const VerifyStability& data, const RunFiles&) {
     }
   }
   write_charts(html, data);
+  write_pictures(page, run, data);
   {
     const Tag section(html, "section", {{"class", "all-cases"}});
     html.element("h2", "Case by case");

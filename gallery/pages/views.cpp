@@ -1,7 +1,8 @@
 #include "gallery/pages/views.hpp"
 
 // In the order of the navigation. NAME_page.cpp defines `const View NAME_view`.
-#define LOBELIA_VIEWS(VIEW) VIEW(explorer) VIEW(stability) VIEW(paper) VIEW(cost) VIEW(search)
+#define LOBELIA_VIEWS(VIEW) \
+  VIEW(explorer) VIEW(stability) VIEW(paper) VIEW(cost) VIEW(search) VIEW(bench)
 
 namespace lobelia::gallery {
 

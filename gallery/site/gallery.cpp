@@ -186,7 +186,7 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
       only(options.only_cell, read_farm(run, Metrics(options.metrics), texts_of(run, options)));
   if (site.title.empty()) site.title = farm.record.title;
   farm.record.title = site.title;
-  const History history = read_history(run, farm, options.baseline);
+  const History history = read_history(run, farm, options.baselines);
   site.is_packed = options.packed.value_or(options.metrics_only && farm.cells.size() >= kManyCells);
   if (options.for_host) {
     site.style = named_by_content(kStyleFile, embedded::gallery_style);

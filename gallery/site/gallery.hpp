@@ -47,9 +47,9 @@ struct GalleryOptions {
   std::optional<bool> packed;
   double share_of_bytes = 1;        ///< of what float pictures and maps of a cell may take
   std::vector<MetricInfo> metrics;  ///< that pages can explain; any other is shown by its id
-  std::filesystem::path baseline;   ///< an earlier run; may be empty
-  std::string title;                ///< empty: the grid's
-  std::string base_url;             ///< public address, for previews of links to it; empty: unknown
+  std::vector<std::filesystem::path> baselines;  ///< earlier runs, the oldest first
+  std::string title;                             ///< empty: the grid's
+  std::string base_url;  ///< public address, for previews of links to it; empty: unknown
   /// Without texts that tell of the machine (published_texts.hpp). Not into the run itself.
   bool scrubbed = false;
   /// Style and script are named by their content, so that a server may let browsers keep them for ever.
@@ -65,7 +65,7 @@ struct PublishedGallery {
   std::string title;
   /// "ID: damaged: povray.exr cannot be read", for each cell that is not as the farm wrote it or contradicts itself.
   std::vector<std::string> doubts;
-  /// "ID: POV-Ray: pass became differs", for each cell that is worse than in the baseline.
+  /// "ID: POV-Ray: pass became differs", for each cell that is worse than in the last of the baselines.
   std::vector<std::string> worse;
 };
 
@@ -77,9 +77,9 @@ struct PublishedGallery {
 /// Compares every file of a cell with its hash in cell.json, and makes every verdict again from the figures and limits of
 /// its record. A missing, damaged or changed file is not shown, and its cell has that state in place of a verdict. Beyond
 /// that, only subtracts curves and pictures for drawings and makes `maps`; everything else is shown as recorded.
-/// With a baseline, each cell is compared with the same cell there. The baseline is checked as the run is, and links in it
-/// are not followed.
-/// Throws Error(kInput) if farm.json cannot be read, also the baseline's, Error(kUsage) for a bad title or base URL.
+/// With baselines, each cell is compared with the same cell of the last of them, and has a timeline over all. They are
+/// checked as the run is, and links in them are not followed.
+/// Throws Error(kInput) if farm.json cannot be read, also a baseline's, Error(kUsage) for a bad title or base URL.
 PublishedGallery write_gallery(const std::filesystem::path& run,
                                const GalleryOptions& options = {});
 

@@ -20,7 +20,6 @@ constexpr CommonOption kCommonOptions[] = {
 constexpr OldOption kOldOptions[] = {
     {"compare", "--noise-seed", "--seed N"},
     {"compare", "--histogram", "--diff-image ERRORS.exr --diff-of flip.ldr"},
-    {"compare", "--noise-from-layers", "--a-variance FILE"},
     {"convert", "-o", "--json FILE"},
     {"convert", "--output", "--json FILE"},
     {"search", "-o", "--json FILE"},

@@ -179,7 +179,7 @@ void add_render(CLI::App& app, ExitCode& code) {
   auto* precision = group.add_choice(
       "--precision", options->precision, precisions,
       "Shade with the narrowest precision whose error bound allows it (sufficient), "
-      "or with this one");
+      "or with this one; float16 emulates a phone's half floats, slowly");
   auto* target_error =
       group.add("--target-error", options->render.target_error, "",
                 "Take samples until the picture's estimated relative error is this small");

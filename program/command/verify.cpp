@@ -1,4 +1,4 @@
-// lobelia verify paper | stability | references | verdicts | profiles
+// lobelia verify paper | stability | references | verdicts | profiles | highlights
 #include "base/records/record.hpp"
 #include "base/system/files.hpp"
 #include "compare/uncertainty/error_bars.hpp"
@@ -9,6 +9,7 @@
 #include "program/command/options.hpp"
 #include "program/command/output_files.hpp"
 #include "studies/agreement/agreement.hpp"
+#include "studies/highlights/table.hpp"
 #include "studies/paper/report.hpp"
 #include "studies/profiles/made_pictures.hpp"
 #include "studies/profiles/profiles.hpp"
@@ -60,7 +61,7 @@ void add_verify_paper(CLI::App& verify) {
 }
 
 struct VerifyStabilityArguments {
-  std::string json, lobe;
+  std::string json, pictures, lobe;
   bool all = false;
   WorkLimits limits;
 };
@@ -70,6 +71,10 @@ ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
   if (!options.lobe.empty())
     lobes = {chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe)};
   OutputFiles().writes_report(options.json);
+  if (!options.pictures.empty()) {
+    make_directories(options.pictures);
+    require_writable(std::filesystem::path(options.pictures) / "stability.png");
+  }
   records::VerifyStability report;
   report.command = command_line();
   ProgressLine progress;
@@ -77,9 +82,15 @@ ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
   progress.clear();
   stability::summarise(report);
   if (!options.json.empty()) report.curves = stability::error_curves();
+  FilesTogether files;
+  if (!options.pictures.empty()) {
+    const auto from = std::filesystem::absolute(options.json).parent_path();
+    report.pictures = stability::write_pictures(
+        options.pictures, std::filesystem::absolute(options.pictures).lexically_relative(from));
+  }
   const std::string text = stability::report_text(report, options.all);
   if (!options.all) stability::keep_rows_outside(report);
-  write_reports(text, {{options.json, record_text(report)}});
+  write_reports(text, {{options.json, record_text(report)}}, files);
   return report.outside == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
@@ -89,13 +100,16 @@ void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyStabilityArguments>();
   OptionGroup group(*command);
   add_json(group, options->json, "verify-stability");
+  group.add("--pictures", options->pictures, "DIR",
+            "Write a highlight by the textbook's float32 and by ours into DIR");
   group.add("--lobe", options->lobe, "LOBE", "This lobe alone, listed or not");
   group.add_flag("--all", options->all, "Print and record every case, not the worst alone");
   options->limits.add_to(group);
   command->footer(
-      "naive is the textbook formula in float32 without care. 'of peak' is the error relative to the\n"
-      "highlight's middle, 'ulp' that in units in the last place that float32 has at the true value,\n"
-      "'pixels' are those that show the wrong sphere, none, or no number.\n"
+      "naive is the textbook formula in float32 without care; in the group float16 naive and ours are\n"
+      "in emulated half floats, n = 8 to 1024. 'of peak' is the error relative to the highlight's\n"
+      "middle, 'ulp' that in units in the last place that float32 has at the true value, 'pixels' are\n"
+      "those that show the wrong sphere, none, or no number.\n"
       "docs/numerics.md has the bounds and why they hold.\n"
       "\n"
       "Where no bound below the whole peak is stated, a case is counted as not compared.\n"
@@ -164,6 +178,7 @@ ExitCode run_verify_references(const VerifyReferencesArguments& options) {
   FilesTogether files;
   if (!options.output.empty()) {
     write_record(directory / "agreement.json", record);
+    write_file(directory / "agreement.csv", agreement::report_csv(result));
     write_file(directory / "agreement.md", page);
   }
   write_reports(options.markdown ? page : agreement::report_text(result),
@@ -178,7 +193,7 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyReferencesArguments>();
   OptionGroup group(*command);
   add_common(group, "--output", options->output,
-             ": agreement.json (kind agreement) and agreement.md", "DIR");
+             ": agreement.json (kind agreement), agreement.csv and agreement.md", "DIR");
   group.add_flag("--small", options->small, "A part of it that takes less than a minute");
   group.add("--size", options->size, "", "Width of pictures; usually 96, with --small 64")
       ->check(between(agreement::kSmallestSize, agreement::kLargestSize));
@@ -204,23 +219,28 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
 }
 
 struct VerifyVerdictsArguments {
-  std::string json;
+  std::string json, plots, pictures;
   std::vector<std::string> noises;
   bool markdown = false;
   verdicts::Options measured;
   WorkLimits limits;
+  EnginePrograms programs;
 };
 
 ExitCode run_verify_verdicts(VerifyVerdictsArguments options) {
   for (const std::string& typed : options.noises)
     options.measured.noises.push_back(
         verdicts::Noise(chosen_place(typed, "--noise", verdicts::kNoiseNames)));
+  options.measured.pictures = options.pictures;
+  options.measured.programs = options.programs.given();
   OutputFiles().writes_report(options.json);
+  if (!options.plots.empty()) make_directories(options.plots);
   ProgressLine progress;
   records::VerifyVerdicts record = verdicts::measure(
       options.measured, [&](double done) { progress.show(done, "pairs with noise"); });
   progress.clear();
   record.command = command_line();
+  if (!options.plots.empty()) verdicts::write_charts(options.plots, record);
   write_reports(
       options.markdown ? verdicts::report_markdown(record) : verdicts::report_text(record),
       {{options.json, record_text(record)}});
@@ -233,6 +253,11 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
   auto options = std::make_shared<VerifyVerdictsArguments>();
   OptionGroup group(*command);
   auto* json = add_json(group, options->json, "verify-verdicts");
+  group.add("--plots", options->plots, "DIR", "Write the curves as SVG files into DIR");
+  group.add(
+      "--pictures", options->pictures, "DIR",
+      "Write the pairs into folders in DIR, for another judge: NOISE-SIZE-SAMPLES-PICTURES/b1, "
+      "b2, ... and CHANGE/a1, a2, ...");
   group.add_number("--seeds", options->measured.seeds, 1, 100000, "Pairs of each kind of noise");
   group.add_number("--changed", options->measured.changed, 0, 100000,
                    "Judge only so many of them with each change, too; 0: all");
@@ -245,9 +270,11 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
       .add("--bootstrap", options->measured.bootstraps, "NUMBER",
            "As that of compare; default: its own")
       ->check(between(kFewestBootstraps, kMostBootstraps));
-  group.add_flag("--small", options->measured.small, "Two kinds of pairs for each kind of noise");
+  group.add_flag("--small", options->measured.small,
+                 "Two kinds of pairs for each kind of noise, without Cycles");
   group.add_flag("--markdown", options->markdown, "Print the table of docs/verdicts.md instead")
       ->excludes(json);
+  options->programs.add_to(*command);
   options->limits.add_to(group);
   command->footer(
       "Each pair is judged as compare does by default: with both expectations equal, where different\n"
@@ -255,9 +282,43 @@ void add_verify_verdicts(CLI::App& verify, ExitCode& exit_code) {
       "A kind is outside if it has more false alarms than a chance of one and a half times the\n"
       "significance has but once in a thousand such tests.\n"
       "\n"
-      "Exit codes: 0 no kind is outside, 1 some are; 2 usage, 4 an output cannot be written.");
+      "Exit codes: 0 no kind is outside, 1 some are; 2 usage, 4 an output cannot be written,\n"
+      "5 a picture of Cycles failed.");
   command->callback([options, &exit_code] {
     options->limits.run([&] { exit_code = run_verify_verdicts(*options); });
+  });
+}
+
+void add_verify_highlights(CLI::App& verify, ExitCode& exit_code) {
+  auto* command = verify.add_subcommand(
+      "highlights",
+      "Try whether the default limits find a changed highlight beside a bright light");
+  struct Arguments {
+    std::string json;
+    WorkLimits limits;
+  };
+  auto options = std::make_shared<Arguments>();
+  OptionGroup group(*command);
+  add_json(group, options->json, "verify-highlights");
+  options->limits.add_to(group);
+  command->footer(
+      "The light has 5 to 50 000 times the highlight's peak. The highlight alone is dimmer, moved,\n"
+      "gone, or only in the judged picture; rounding to half floats must pass. docs/limits.md says how\n"
+      "each highlight is judged.\n"
+      "\n"
+      "Exit codes: 0 every change is found, 1 some are missed or rounding is a difference; 2 usage,\n"
+      "4 an output cannot be written.");
+  command->callback([options, &exit_code] {
+    options->limits.run([&] {
+      OutputFiles().writes_report(options->json);
+      ProgressLine progress;
+      records::VerifyHighlights record = highlights::measure_table(
+          [&](double done) { progress.show(done, "highlights beside a light"); });
+      progress.clear();
+      record.command = command_line();
+      write_reports(highlights::table_text(record), {{options->json, record_text(record)}});
+      exit_code = record.wrong == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
+    });
   });
 }
 
@@ -325,12 +386,14 @@ void add_verify(CLI::App& app, ExitCode& exit_code) {
   command->footer(
       "Begin with:\n  lobelia verify paper\n  lobelia verify stability\n"
       "  lobelia verify references --small\n  lobelia verify verdicts --small\n"
-      "  lobelia verify profiles --pictures 6");
+      "  lobelia verify profiles --pictures 6\n"
+      "  lobelia verify highlights");
   add_verify_paper(*command);
   add_verify_stability(*command, exit_code);
   add_verify_references(*command, exit_code);
   add_verify_verdicts(*command, exit_code);
   add_verify_profiles(*command, exit_code);
+  add_verify_highlights(*command, exit_code);
 }
 
 }  // namespace lobelia::cli

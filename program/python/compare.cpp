@@ -114,6 +114,8 @@ ComparedSet compare_set(const CompareChoice& choice, const py::object& progress)
 
 std::shared_ptr<Compared> compare_two_pictures(const py::object& a, const py::object& b,
                                                const CompareChoice& choice) {
+  if (!choice.reference_floor.empty())
+    throw Error(ExitCode::kUsage, "reference_floor is for folders and projects");
   auto compared = std::make_shared<Compared>();
   Side side_a(a, "a"), side_b(b, "b");
   const bool files = side_a.is_file && side_b.is_file;

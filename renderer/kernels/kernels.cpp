@@ -253,7 +253,7 @@ void random(std::size_t count, const std::uint32_t* pixel, const std::uint32_t* 
   }
 }
 
-using ShadeRow = std::array<KernelTable::Shade, kPrecisionCount>;
+using ShadeRow = std::array<KernelTable::Shade, 3>;  // by precision, but for float16
 
 template <class M>
 constexpr auto shade_table() {
@@ -264,6 +264,7 @@ constexpr auto shade_table() {
 }
 
 KernelTable::Shade find_shade(const Highlight& highlight, Precision precision) {
+  if (precision == Precision::kFloat16) return float16_shade(highlight);
   using Row = std::array<ShadeRow, LobesById::kSize>;
   static constexpr auto kTable =
       map_types<Row>(Models{}, []<class M>() { return shade_table<M>(); });

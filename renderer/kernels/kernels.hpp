@@ -79,6 +79,10 @@ struct KernelTable {
   const char* instruction_set;  ///< "AVX2"
 };
 
+/// KernelTable::shade of Precision::kFloat16, the same on every processor: it emulates one point after another. N.L and
+/// all that follows the lobe are float64, as in the other precisions.
+KernelTable::Shade float16_shade(const Highlight& highlight);
+
 /// For this processor; decided once.
 const KernelTable& kernels();
 

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "base/pictures/half.hpp"
 #include "base/system/error.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
@@ -45,6 +46,13 @@ double min_half_length(const Scene& scene, const Lamp& lamp, const Sphere& spher
 }
 
 void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& plan) {
+  if (asked == Precision::kFloat16)
+    for (const Material& m : scene.materials)
+      if (m.highlight.exponent > kGreatestHalf)
+        throw Error(ExitCode::kInput,
+                    "exponent {:g}: float16 has no number above {:g}; choose a wider "
+                    "--precision",
+                    m.highlight.exponent, kGreatestHalf);
   std::array<std::size_t, kPrecisionCount> pairs{};
   for (const Material& m : scene.materials)
     plan.any_direction_precision.push_back(asked ? *asked : sufficient_precision(m.highlight, 0));
@@ -83,7 +91,9 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
       ++pairs[std::size_t(plan.any_direction_precision[std::size_t(plane.material)])];
   }
   if (asked) {
-    plan.precision_reason = fmt::format("{} was asked for", name(*asked));
+    plan.precision_reason = fmt::format(
+        "{} was asked for{}", name(*asked),
+        *asked == Precision::kFloat16 ? ", and is emulated: its time is no phone's" : "");
     return;
   }
   for (std::size_t p = 0; p < pairs.size(); ++p)

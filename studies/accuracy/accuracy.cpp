@@ -62,6 +62,7 @@ std::vector<LobeVariant> variants_of(const Scene& scene, const CostModel& model)
   if (!own) lobes.push_back(std::nullopt);
   std::vector<LobeVariant> variants;
   for (const auto& lobe : lobes)
+    // Not float16: its emulation is slower than float64, so that it would never be the cheapest.
     for (const Precision p : {Precision::kFloat64, Precision::kMixed, Precision::kFloat32})
       variants.push_back({lobe, p, lobe == own, cost_of(scene, lobe, p, model)});
   std::stable_sort(variants.begin(), variants.end(),

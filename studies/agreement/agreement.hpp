@@ -99,7 +99,7 @@ using OnProgress = std::function<void(double, std::string_view)>;
 Agreement measure(const Scope& scope, std::span<const std::unique_ptr<Engine>> engines,
                   const OnProgress& on_progress);
 
-// The table as text, Markdown and a record.
+// The table as text, CSV, Markdown and a record.
 
 using Table =
     studies::Table;  ///< with one remark, which the page prints above it and the text leaves out
@@ -125,5 +125,7 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
 std::vector<std::string> markdown_headings();
 records::Agreement report_record(const Agreement& agreement,
                                  const std::vector<std::string>& command);
+/// One line a comparison.
+std::string report_csv(const Agreement& agreement);
 
 }  // namespace lobelia::agreement

@@ -256,7 +256,7 @@ Table miss_table(const Agreement& agreement) {
   }
   Table table = table_of(
       "Missed",
-      "The worst of what is not within its target, or is none; agreement.json has every "
+      "The worst of what is not within its target, or is none; agreement.csv has every "
       "picture. 'over' is the most in one.",
       {"variant", "n", "light or effect", "pictures", "max", "relative", "over", "target"});
   for (const auto& [variant, by_range] : by_variant.entries)

@@ -57,10 +57,11 @@ std::vector<const Benchmark*> chosen_benchmarks(const std::vector<std::string>& 
 records::Cost measure(const std::vector<const Benchmark*>& chosen, Options options,
                       std::vector<std::string> command);
 
-/// One table per exponent, "lobe-n64".
+/// One table per exponent, "lobe-n64", and those of half floats (half_floats.hpp).
 std::vector<Table> measure_lobes(const Options& options);
-/// The table of one exponent; times are medians of so many rounds.
-Table lobe_table(double exponent, int rounds);
+/// The table of one exponent; times are medians of so many rounds. A quick one evaluates 2^20 numbers to find the
+/// largest error of a variant, and may then give only a bracket of it.
+Table lobe_table(double exponent, int rounds, bool quick);
 
 /// One table per scene, by lobe and precision, rendered by one thread.
 std::vector<Table> measure_pictures(const Options& options);

@@ -11,6 +11,7 @@
 #include "base/words/constants.hpp"
 #include "base/words/error_time_chart.hpp"
 #include "renderer/catalogue_record.hpp"
+#include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
 namespace lobelia::cost {
@@ -19,6 +20,10 @@ namespace {
 constexpr std::size_t kPoints = 1024;     // in the first-level cache
 constexpr double kSecondsAtATime = 5e-5;  // a thousand times the clock's resolution
 constexpr std::size_t kMostRepeats = 4096;
+
+/// Numbers evaluated to find the largest error of a variant; float32 has some 2^28.
+constexpr std::uint64_t kMostNumbersQuick = 1 << 20, kMostNumbers64 = 1 << 22,
+                        kAllNumbers = ~std::uint64_t(0);
 
 /// Points across the highlight, and a variant's values there.
 struct Points {
@@ -89,7 +94,7 @@ void check(const LobeVariant& variant, double exponent, const Points& points) {
 }
 
 Variant measured_lobe(const LobeVariant& variant, const LobeVariantErrors& errors,
-                      const Times& times) {
+                      const LargestError& largest, const Times& times) {
   Variant made;
   made.name = variant.name();
   made.settings = {{"lobe", std::string(info(variant.lobe).name)},
@@ -97,12 +102,13 @@ Variant measured_lobe(const LobeVariant& variant, const LobeVariantErrors& error
                    {"precision", variant.wide ? "float64" : "float32"},
                    {"lanes", variant.simd ? "SIMD" : "scalar"}};
   made.seconds = records::rounds_record(times);
-  made.errors = {{"max", errors.all.max}, {"rms", errors.all.rms}, {"energy", errors.all.energy}};
+  made.errors = {{"max", largest.found}, {"rms", errors.all.rms}, {"energy", errors.all.energy}};
   records::CostFacts& facts = made.facts.emplace();
   facts.operations = operations_record(variant.operations);
   facts.shape = errors.shape;
   facts.rounding = errors.rounding;
   facts.rounding->max_at_most = variant.allowed;
+  if (largest.at_most > largest.found) made.errors_at_most.emplace() = {{"max", largest.at_most}};
   return made;
 }
 
@@ -132,9 +138,20 @@ std::vector<std::string> limit_remarks(const std::vector<LobeVariant>& variants,
   return remarks;
 }
 
+std::string bracket_remark(const Table& table) {
+  const auto brackets = std::ranges::count_if(
+      table.variants, [](const Variant& variant) { return variant.errors_at_most.has_value(); });
+  if (brackets == 0) return "";
+  return fmt::format(
+      "The max of {} variants is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
+      "number exceeds.",
+      std::ssize(table.variants) - brackets, brackets);
+}
+
 std::string time_remark(const Table& table, double copy) {
   double fastest = kInfinity;
-  for (const Variant& variant : table.variants) fastest = std::min(fastest, variant.seconds.median);
+  for (const Variant& variant : table.variants)
+    fastest = std::min(fastest, variant.seconds->median);
   return fmt::format(
       "Reading s and writing a value takes {} in float32; the fastest variant takes {:.1f} times that.",
       short_time_text(copy), fastest / copy);
@@ -142,7 +159,7 @@ std::string time_remark(const Table& table, double copy) {
 
 }  // namespace
 
-Table lobe_table(double exponent, int rounds) {
+Table lobe_table(double exponent, int rounds, bool quick) {
   const std::vector<LobeVariant> variants = lobe_variants(exponent);
   std::vector<LobeCase> cases;
   for (const LobeVariant& variant : variants) cases.push_back(case_of(variant, exponent));
@@ -165,10 +182,17 @@ Table lobe_table(double exponent, int rounds) {
   for (std::size_t i = 0; i < variants.size(); ++i) {
     check(variants[i], exponent, *cases[i].points);
     errors.push_back(truth.errors(variants[i]));
-    table.variants.push_back(measured_lobe(variants[i], errors[i], each(i)));
+    const std::uint64_t most = variants[i].of_cosine ? kAllNumbers
+                               : quick               ? kMostNumbersQuick
+                               : variants[i].wide    ? kMostNumbers64
+                                                     : kAllNumbers;
+    table.variants.push_back(
+        measured_lobe(variants[i], errors[i],
+                      largest_error(variants[i], exponent, errors[i].all.max, most), each(i)));
   }
   table.remarks = limit_remarks(variants, errors);
-  table.remarks.push_back(fmt::format("The max is of {} numbers s.", truth.s().size()));
+  if (const std::string brackets = bracket_remark(table); !brackets.empty())
+    table.remarks.push_back(brackets);
   table.remarks.push_back(time_remark(table, each(variants.size()).median));
   return table;
 }
@@ -180,8 +204,11 @@ std::vector<Table> measure_lobes(const Options& options) {
   std::vector<Table> tables;
   for (const double exponent : exponents) {
     options.progress(fmt::format("n = {}", exponent_text(exponent)));
-    tables.push_back(lobe_table(exponent, options.rounds(11, 41, 201)));
+    tables.push_back(
+        lobe_table(exponent, options.rounds(11, 41, 201), options.effort == Effort::kQuick));
   }
+  options.progress("half floats");
+  for (Table& table : half_float_tables()) tables.push_back(std::move(table));
   return tables;
 }
 

@@ -36,21 +36,22 @@ using Variants = std::vector<LobeVariant>;
 
 /// `over` is a function of arrays of T.
 template <class T, class Over>
-void add(Variants& all, LobeId lobe, std::string method, bool simd, OperationCount operations,
-         double allowed, Over over) {
+LobeVariant& add(Variants& all, LobeId lobe, std::string method, bool simd,
+                 OperationCount operations, double allowed, Over over) {
   constexpr bool kWide = std::is_same_v<T, double>;
   LobeVariant& variant = all.emplace_back(
-      LobeVariant{lobe, std::move(method), kWide, simd, operations, allowed, {}, {}});
+      LobeVariant{lobe, std::move(method), kWide, simd, operations, allowed, false, {}, {}});
   if constexpr (kWide)
     variant.over64 = over;
   else
     variant.over32 = over;
+  return variant;
 }
 
 template <class T, class F>
-void add_scalar(Variants& all, LobeId lobe, std::string method, OperationCount operations,
-                double allowed, F f) {
-  add<T>(all, lobe, std::move(method), false, operations, allowed, scalar<T>(f));
+LobeVariant& add_scalar(Variants& all, LobeId lobe, std::string method, OperationCount operations,
+                        double allowed, F f) {
+  return add<T>(all, lobe, std::move(method), false, operations, allowed, scalar<T>(f));
 }
 
 /// The operations of a formula of the cosine, with 1 - s and the cut.
@@ -101,7 +102,8 @@ void add_catalogued(LobeId id, double exponent, Variants& all) {
                     [lobe](float s) {
                       const float cosine = 1 - s;
                       return cosine > 0 ? lobe.definition(cosine) : 0.0f;
-                    });
+                    })
+      .of_cosine = true;
 }
 
 template <class T>
@@ -109,6 +111,7 @@ void add_powered(LobeId cosine, unsigned n, Variants& all) {
   // The rounding of 1 - s becomes n times as large, that of its square n/2 times and so on; each bit of n that is set
   // adds a product.
   const double allowed = (2.0 * n + std::bit_width(n)) * kHalfUnit<T>;
+  constexpr bool kOfCosine = std::is_same_v<T, float>;
   OperationCount count;
   count.add = count.compare = 1;
   binary_power(0, n, [&](int, int) { return ++count.multiply; });
@@ -119,8 +122,8 @@ void add_powered(LobeId cosine, unsigned n, Variants& all) {
   const auto lanes = [n](std::size_t points, const T* s, T* value) {
     squaring_lanes(n, points, s, value);
   };
-  add_scalar<T>(all, cosine, "squaring", count, allowed, power);
-  add<T>(all, cosine, "squaring", true, count, allowed, lanes);
+  add_scalar<T>(all, cosine, "squaring", count, allowed, power).of_cosine = kOfCosine;
+  add<T>(all, cosine, "squaring", true, count, allowed, lanes).of_cosine = kOfCosine;
 }
 
 /// The other variants of cos^n.
@@ -142,7 +145,8 @@ void add_cs(LobeId id, double exponent, Variants& all) {
     const float base = 1 - slope * s;
     return base > 0 && s < 1 ? binary_power(base, k, kTimes) : 0.0f;
   };
-  add_scalar<float>(all, id, "squaring", operations(id), 3.0 * k * kRounding32, power);
+  add_scalar<float>(all, id, "squaring", operations(id), 3.0 * k * kRounding32, power).of_cosine =
+      exponent == k;
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct LobeVariant {
   OperationCount operations;
   /// A bound of its rounding: of the difference from its own lobe, relative to the peak.
   double allowed;
+  bool of_cosine;  ///< computes from 1 - s rounded to float32
   /// One of the two, by `wide`: values of `count` numbers s in [0, 1].
   std::function<void(std::size_t count, const double* s, double* value)> over64;
   std::function<void(std::size_t count, const float* s, float* value)> over32;

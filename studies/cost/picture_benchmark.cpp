@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pictures/half.hpp"
 #include "base/system/error.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
@@ -57,7 +58,7 @@ std::string order_remark(const std::vector<Variant>& variants) {
           *variants[j].facts->predicted_cost - *variants[i].facts->predicted_cost;
       if (predicted * slower >= 0) continue;
       ++reversed;
-      const double ratio = variants[i].seconds.median / variants[j].seconds.median;
+      const double ratio = variants[i].seconds->median / variants[j].seconds->median;
       worst = std::max({worst, ratio, 1 / ratio});
     }
   return fmt::format(
@@ -68,10 +69,13 @@ std::string order_remark(const std::vector<Variant>& variants) {
 
 Table table_of(const NamedScene& named, const Options& options) {
   const Scene scene = sized(named.scene, options);
+  const bool in_half_floats = std::ranges::all_of(
+      scene.materials, [](const Material& m) { return m.highlight.exponent <= kGreatestHalf; });
   std::vector<Combination> cases;
   for (const LobeId& lobe : accuracy::lobe_candidates(scene))
     for (std::size_t p = 0; p < kPrecisionCount; ++p)
-      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
+      if (Precision(p) != Precision::kFloat16 || in_half_floats)
+        cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
 
   const int rounds = options.rounds(3, 9, 25);
   for (int round = -1; round < rounds; ++round) {
@@ -109,7 +113,8 @@ Table table_of(const NamedScene& named, const Options& options) {
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
     Variant& variant = table.variants.emplace_back();
-    variant.name = fmt::format("{}, {}", lobe, precision);
+    variant.name = fmt::format("{}, {}{}", lobe, precision,
+                               c.precision == Precision::kFloat16 ? " (emulated)" : "");
     variant.settings = {
         {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.first.samples)}};
     variant.seconds = records::rounds_record(per(summary(std::move(c.seconds)), megapixels));

@@ -9,13 +9,16 @@
 
 namespace lobelia::cost {
 
-/// Its id is unique in its report and a file's name. Times are of one `per`. Remarks are sentences: fits, findings and
-/// omissions.
+/// Its id is unique in its report and a file's name. Times are of one `per`; without times the unit is of the count:
+/// "bit operations". Remarks are sentences: fits, findings and omissions.
 using Table = records::CostTable;
 /// Its name is unique in its table. Errors are in the order of the table's kinds, not negative, NaN where not known;
 /// spreads are standard deviations over repeats.
 using Variant = records::CostVariant;
 
+inline bool is_timed(const Table& table) { return table.unit == "s"; }
+/// A variant's seconds, or its count where there is nothing to time.
+records::MeasuredRounds cost_of(const Variant& variant);
 double setting(const Variant& variant, std::string_view name);  ///< as a number; NaN without
 /// 1 if b is slower than a by more than the spread of both, -1 if faster by more, else 0.
 int clearly_slower(const Variant& a, const Variant& b);

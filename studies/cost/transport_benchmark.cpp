@@ -188,7 +188,7 @@ void add_series(const Series& series, const Converged& truth, Table& table) {
     variant.error_spreads.emplace() = {{"rmse_rel", spread_of(point, truth)}};
     variant.facts = point.facts;
     samples.push_back(point.samples);
-    seconds.push_back(variant.seconds.median);
+    seconds.push_back(variant.seconds->median);
     errors.push_back(variant.errors[0].second);
     table.variants.push_back(std::move(variant));
   }

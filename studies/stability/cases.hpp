@@ -85,4 +85,9 @@ Rows sphere_rows(LobeId lobe);
 /// them.
 Rows precision_rows(const std::vector<LobeId>& lobes, double exponent);
 
+/// Random vectors in half floats, n = 8 to 1024: the worst of those for which shading_error_bound says anything, and the
+/// textbook's worst.
+inline constexpr std::array kHalfFloatExponents{8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0};
+Rows float16_rows(LobeId lobe);
+
 }  // namespace lobelia::stability

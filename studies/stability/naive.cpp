@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/pictures/half.hpp"
 #include "base/system/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
@@ -46,15 +47,19 @@ float by_quadrature(const Highlight& h, const truth::ModelRow& model) {
 }
 
 /// For unit vectors.
-float unit_shape(const Highlight& highlight, const Float3& n, const Float3& v, const Float3& l) {
-  const float n_dot_l = dot(n, l);
-  if (n_dot_l <= 0) return 0;
+template <class Number>
+Number unit_shape(const Highlight& highlight, const truth::Vector<Number>& n,
+                  const truth::Vector<Number>& v, const truth::Vector<Number>& l) {
+  const Number n_dot_l = dot(n, l);
+  if (n_dot_l <= Number(0)) return Number(0);
   const ModelInfo& model = info(highlight.model);
-  const float cosine = model.angle == LobeAngle::kReflection ? dot(2.0f * dot(n, v) * n - v, l)
-                                                             : dot(n, normalize(l + v));
-  const float value = lobe(highlight.lobe, cosine, highlight.exponent);
-  return value * truth::geometry<float>(truth::model_row(highlight.model), highlight.exponent,
-                                        n_dot_l, dot(n, v));
+  const Number cosine = model.angle == LobeAngle::kReflection
+                            ? dot(Number(2) * dot(n, v) * n - v, l)
+                            : dot(n, normalize(l + v));
+  const Number value =
+      cosine > Number(0) ? lobe_definition(highlight.lobe, cosine, highlight.exponent) : Number(0);
+  return value * truth::geometry<Number>(truth::model_row(highlight.model), highlight.exponent,
+                                         n_dot_l, dot(n, v));
 }
 
 constexpr float kEpsilon = 1e-4f;
@@ -130,6 +135,11 @@ float lobe(LobeId lobe, float cosine, double exponent) {
 float shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light) {
   return unit_shape(highlight, normalize(to_float(normal)), normalize(to_float(to_eye)),
                     normalize(to_float(to_light)));
+}
+
+double shape_in_half_floats(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light) {
+  using Vector = truth::Vector<Half>;
+  return double(unit_shape(highlight, Vector(normal), Vector(to_eye), Vector(to_light)));
 }
 
 float coefficient(const Highlight& highlight) {

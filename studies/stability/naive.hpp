@@ -14,6 +14,9 @@ float lobe(LobeId lobe, float cosine, double exponent);
 /// multiplied with each other.
 float shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light);
 
+/// The same of unit vectors, with every operation in half floats.
+double shape_in_half_floats(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light);
+
 /// The paper's closed form for cos^n; for other lobes, and models that are not in the paper, the integral by the midpoint
 /// rule with 1024 steps. Throws Error(kInternal) for a model that the formulas do not know.
 float coefficient(const Highlight& highlight);

@@ -69,6 +69,8 @@ constexpr Meaning kMeanings[] = {
     {"spheres", "light behind", "The light grazes the silhouette."},
     {"spheres", "camera inside", "Spheres are seen from outside only."},
     {"spheres", "tangent ray", "Rays that touch a sphere, and the next numbers on either side."},
+    {"float16", "",
+     "All in half floats, as on a phone, and the textbook too: its cosine has lost the angle, its power may exceed 1."},
     {"precision", "",
      "1e5 random vectors and the worst of them made worse, against the stated bound."},
 };
@@ -236,7 +238,8 @@ std::string digits(const Rows& rows) {
 
 Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress) {
   std::vector<std::function<Rows()>> jobs;
-  for (const auto rows_of : {lobe_rows, coefficient_rows, vector_rows, density_rows, sphere_rows})
+  for (const auto rows_of :
+       {lobe_rows, coefficient_rows, vector_rows, density_rows, float16_rows, sphere_rows})
     for (const LobeId& lobe : lobes) jobs.push_back([rows_of, lobe] { return rows_of(lobe); });
   for (const double n : kExponents)
     jobs.push_back([&lobes, n] { return precision_rows(lobes, n); });
@@ -282,13 +285,18 @@ void keep_rows_outside(records::VerifyStability& report) {
 }
 
 std::string report_text(const records::VerifyStability& report, bool all) {
-  const std::string text =
+  std::string text =
       all ? rows_text(report.rows)
           : summary_text(report.by_lobe, "worst of each lobe", &records::StabilityOfLobe::lobe) +
                 "\n" +
                 summary_text(report.by_case, "worst of each case",
                              &records::StabilityOfCase::name) +
                 digits(report.rows);
+  for (const records::StabilityPictures& p : report.pictures)
+    text += fmt::format(
+        "\nclose to a highlight of n = {:g}: naive off by {:.2g} of the peak, ours by {:.2g}",
+        p.exponent, p.naive.largest_error_of_peak, p.ours.largest_error_of_peak);
+  if (!report.pictures.empty()) text += "\n";
   return text + fmt::format("\n{} cases: {} within their bounds, {} outside, {} not compared\n",
                             report.cases, report.cases - report.outside - report.not_compared,
                             report.outside, report.not_compared);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/error.hpp"
 #include "compare/uncertainty/noise_draws.hpp"
 #include "renderer/render.hpp"
 #include "studies/agreement/example_scenes.hpp"
@@ -60,15 +61,45 @@ Image made(const Cell& cell, std::uint64_t seed, double wider) {
 Scene scene_of(const Cell& cell, std::uint64_t seed, double wider) {
   // The width of cos^n is in proportion to 1 / sqrt(n).
   const HighlightChoice choice{"modified_phong", "cosine", "exact", 64 / (wider * wider)};
+  const bool matt = cell.noise == Noise::kCycles;
   const Light ball = SphereLight{{2, 2.5, 2.5}, 0.6, {20, 16, 12}};
-  Scene scene = ground_scene(choice, {ball}, cell.size);
+  const Light window = RectangleLight{{-2, 2, 2}, {0.5, 0, 0.5}, {0, -0.6, 0}, {9, 12, 15}};
+  Scene scene = ground_scene(choice, {matt ? window : ball}, cell.size);
+  if (matt)
+    for (Material& material : scene.materials) material.specular_reflectance = {};
   scene.sampler = {cell.samples, seed};
   return scene;
 }
 
 }  // namespace
 
-Image picture_of(const Cell& cell, std::uint64_t seed, double wider) {
+Cycles::Cycles(const std::map<std::string, std::filesystem::path>& programs) {
+  const EngineInfo* const info = transport_engine();
+  if (!info) {
+    why_not_ = "no engine traces light by itself";
+    return;
+  }
+  const auto given = programs.find(std::string(info->name));
+  engine_ = make_engine(info->name, given == programs.end() ? "" : given->second);
+  const EngineStatus& status = engine_->status();
+  why_not_ = status.why;
+  if (!status.available()) return;
+  ReferenceOptions how;
+  how.processes = 1;
+  how.own_transport = true;
+  session_ = std::make_unique<Session>(*engine_, how);
+}
+
+Cycles::~Cycles() = default;
+
+Image Cycles::render(const Cell& cell, std::uint64_t seed) {
+  ReferenceResult result = session_->render(scene_of(cell, seed, 1));
+  if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
+  return std::move(result.image);
+}
+
+Image picture_of(const Cell& cell, std::uint64_t seed, Cycles* cycles, double wider) {
+  if (cell.noise == Noise::kCycles) return cycles->render(cell, seed);
   if (cell.noise != Noise::kRenders) return made(cell, mix(seed), wider);
   RenderOptions options;
   options.threads = 1;  // other pairs keep the other processors busy

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "base/system/files.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::verdicts {
 namespace {
+
+std::string cell_name(const records::VerdictCell& cell) {
+  return fmt::format("{} px, {} samples, {} pictures", cell.size, cell.samples, cell.replicates);
+}
 
 studies::Table table_of(const records::VerifyVerdicts& verdicts) {
   studies::Table table{"",
@@ -48,6 +53,8 @@ std::string report_text(const records::VerifyVerdicts& verdicts) {
     alarms += cell.changes.front().different;
     pairs += cell.changes.front().pairs;
   }
+  if (!verdicts.left_out.empty())
+    table.remarks.push_back(fmt::format("cycles: left out, {}", verdicts.left_out));
   table.remarks.push_back(fmt::format("{} false alarms in {} pairs; promised: at most {:g} of them",
                                       alarms, pairs, verdicts.significance));
   table.remarks.push_back(
@@ -60,6 +67,40 @@ std::string report_text(const records::VerifyVerdicts& verdicts) {
 
 std::string report_markdown(const records::VerifyVerdicts& verdicts) {
   return studies::table_markdown(table_of(verdicts));
+}
+
+std::vector<Chart> charts(const records::VerifyVerdicts& verdicts) {
+  constexpr int kStyles = 5;
+  std::vector<Chart> charts;
+  for (const records::VerdictCell& cell : verdicts.cells) {
+    if (charts.empty() || charts.back().id != "verdicts-" + cell.noise) {
+      Chart& chart = charts.emplace_back();
+      chart.id = "verdicts-" + cell.noise;
+      chart.title = fmt::format("Called different under noise: {}", cell.noise);
+      chart.description =
+          "The share of pairs that are called different over the share of light that "
+          "one of them lacks. At 0 it is that of false alarms.";
+      chart.width = 1080;
+      chart.height = 420;
+      chart.x = {"share of light that is missing", 0, 0.3};
+      chart.y = {"share called different", 0, 1};
+    }
+    std::vector<ChartSeries>& all = charts.back().series;
+    ChartSeries series{cell_name(cell), {}, {}, 1 + int(all.size()) % kStyles};
+    for (const records::VerdictsOfChange& change : cell.changes)
+      if (change.pairs > 0 && (change.change.empty() || change.dimmer > 0)) {
+        series.x.push_back(change.dimmer);
+        series.y.push_back(double(change.different) / change.pairs);
+      }
+    all.push_back(std::move(series));
+  }
+  return charts;
+}
+
+void write_charts(const std::filesystem::path& directory, const records::VerifyVerdicts& verdicts) {
+  make_directories(directory);
+  for (const Chart& chart : charts(verdicts))
+    write_file(directory / (chart.id + ".svg"), draw_chart_file(chart));
 }
 
 }  // namespace lobelia::verdicts

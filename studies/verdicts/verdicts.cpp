@@ -7,6 +7,8 @@
 #include <atomic>
 #include <boost/math/distributions/binomial.hpp>
 
+#include "base/pictures/image_io.hpp"
+#include "base/system/files.hpp"
 #include "base/system/interrupt.hpp"
 #include "compare/compare.hpp"
 
@@ -18,6 +20,8 @@ struct Change {
   double dimmer = 0;
   int columns = 0;  ///< moved to the right by so many
   double wider = 1;
+
+  bool fits(Noise noise) const { return wider == 1 || noise != Noise::kCycles; }
 };
 
 const std::vector<Change>& changes() {
@@ -29,6 +33,13 @@ const std::vector<Change>& changes() {
                                         {"moved by a pixel", 0, 1},
                                         {"10 % wider", 0, 0, 1.1}};
   return list;
+}
+
+/// "dimmer-5", "same"
+std::string folder_of(const Change& change) {
+  if (change.columns > 0) return fmt::format("moved-{}", change.columns);
+  if (change.wider > 1) return fmt::format("wider-{:.0f}", 100 * (change.wider - 1));
+  return change.dimmer > 0 ? fmt::format("dimmer-{:g}", 100 * change.dimmer) : "same";
 }
 
 Image changed(const Image& image, const Change& change) {
@@ -46,6 +57,7 @@ std::vector<Cell> cells_of(const Options& options) {
   for (std::size_t i = 0; i < std::size(kNoiseNames); ++i) {
     const auto noise = Noise(i);
     if (!options.noises.empty() && std::ranges::count(options.noises, noise) == 0) continue;
+    if (options.small && noise == Noise::kCycles) continue;
     const auto add = [&](int size, int samples, int replicates) {
       cells.push_back({noise, size, samples, replicates});
     };
@@ -78,6 +90,13 @@ class Measurement {
     result.significance = options_.significance;
     result.seeds = options_.seeds;
     result.bootstraps = judged_.noise->bootstraps;
+    if (std::ranges::count(cells_, Noise::kCycles, &Cell::noise) > 0) {
+      cycles_ = std::make_unique<Cycles>(options_.programs);
+      if (!cycles_->why_not().empty()) {
+        result.left_out = cycles_->why_not();
+        std::erase_if(cells_, [](const Cell& cell) { return cell.noise == Noise::kCycles; });
+      }
+    }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       result.cells.push_back(measure(cells_[i]));
       result.outside += !result.cells.back().holds;
@@ -95,11 +114,15 @@ class Measurement {
                                 0,
                                 false};
     std::vector<std::array<std::atomic<int>, 3>> counts(changes().size());
-    oneapi::tbb::parallel_for(0, options_.seeds, [&](int seed) {
+    const auto judge_one = [&](int seed) {
       throw_if_interrupted();
       judge_pair(cell, seed, counts);
       on_progress_(double(++done_) / (double(cells_.size()) * options_.seeds));
-    });
+    };
+    if (cell.noise == Noise::kCycles)
+      for (int seed = 0; seed < options_.seeds; ++seed) judge_one(seed);
+    else
+      oneapi::tbb::parallel_for(0, options_.seeds, judge_one);
     for (std::size_t i = 0; i < changes().size(); ++i) {
       const int same = counts[i][0], undecided = counts[i][1], different = counts[i][2];
       result.changes.push_back({changes()[i].name, changes()[i].dimmer,
@@ -120,23 +143,40 @@ class Measurement {
     const auto replicates = [&](bool of_b, double wider) {
       std::vector<Image> pictures;
       for (int r = 0; r < cell.replicates; ++r)
-        pictures.push_back(picture_of(cell, next_seed(seed, cell.replicates, r, of_b), wider));
+        pictures.push_back(
+            picture_of(cell, next_seed(seed, cell.replicates, r, of_b), cycles_.get(), wider));
       return pictures;
     };
     const std::vector<Image> a = replicates(false, 1), b = replicates(true, 1);
     const NoisyPicture reference = mean_of_replicates(b, false);
+    write(b, cell, "b", seed);
     for (std::size_t i = 0; i < changes().size(); ++i) {
       const Change& change = changes()[i];
-      if (i > 0 && options_.changed > 0 && seed >= options_.changed) continue;
+      if (!change.fits(cell.noise) || (i > 0 && options_.changed > 0 && seed >= options_.changed))
+        continue;
       std::vector<Image> pictures = change.wider > 1 ? replicates(false, change.wider) : a;
       for (Image& image : pictures) image = changed(image, change);
       NoisyPicture judged = mean_of_replicates(pictures, false);
+      write(pictures, cell, folder_of(change) + "/a", seed);
       ComparisonOptions options = judged_;
       options.noise->a = std::move(judged.noise);
       options.noise->b = reference.noise;
       options.noise->seed = std::uint64_t(seed);
       const Verdict verdict = compare(judged.image, reference.image, options).verdict;
       ++counts[i][verdict == Verdict::kSame ? 0 : verdict == Verdict::kUndecided ? 1 : 2];
+    }
+  }
+
+  void write(const std::vector<Image>& replicates, const Cell& cell, const std::string& side,
+             int seed) const {
+    if (options_.pictures.empty()) return;
+    for (std::size_t r = 0; r < replicates.size(); ++r) {
+      const auto folder = options_.pictures /
+                          fmt::format("{}-{}-{}-{}", kNoiseNames[std::size_t(cell.noise)],
+                                      cell.size, cell.samples, cell.replicates) /
+                          fmt::format("{}{}", side, r + 1);
+      make_directories(folder);
+      write_exr(folder / fmt::format("{}.exr", seed), replicates[r], {});
     }
   }
 
@@ -149,6 +189,7 @@ class Measurement {
   const OnProgress& on_progress_;
   std::vector<Cell> cells_;
   ComparisonOptions judged_;
+  std::unique_ptr<Cycles> cycles_;
   std::atomic<int> done_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIntAttribute.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
@@ -240,6 +241,7 @@ struct ExrPart {
   std::vector<ExrChannel> channels;
   std::optional<Imf::Chromaticities> chromaticities = {};
   std::map<std::string, std::string> texts = {};
+  std::optional<int> samples = {};  ///< as pbrt writes them
 };
 
 inline Imath::Box2i window(int x, int y, int width, int height) {
@@ -255,6 +257,7 @@ inline void write_exr_parts(const std::filesystem::path& path, const std::vector
     header.setType(Imf::SCANLINEIMAGE);
     if (part.chromaticities) Imf::addChromaticities(header, *part.chromaticities);
     for (const auto& [name, text] : part.texts) header.insert(name, Imf::StringAttribute(text));
+    if (part.samples) header.insert("samplesPerPixel", Imf::IntAttribute(*part.samples));
     for (const ExrChannel& channel : part.channels)
       header.channels().insert(channel.name, Imf::Channel(channel.type));
     headers.push_back(header);

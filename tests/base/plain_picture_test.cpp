@@ -52,6 +52,7 @@ class PlainPicture : public PictureFiles {
                                    Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION});
     header.lineOrder() = one_of({Imf::INCREASING_Y, Imf::DECREASING_Y});
     if (rarely()) header.setName("beauty");
+    if (rarely()) header.insert("samplesPerPixel", Imf::IntAttribute(below(99)));
     if (rarely()) header.insert("cycles.R.samples", Imf::StringAttribute("64"));
     if (rarely())
       Imf::addChromaticities(
@@ -103,7 +104,10 @@ class PlainPicture : public PictureFiles {
     if (rarely())
       png.chunks += png_chunk(
           "cICP", {char(one_of({1, 9, 12})), one_of({'\x8', '\x10', '\x12', '\xd'}), 0, 1});
-    if (rarely()) png.chunks += png_chunk("tEXt", std::string("samples\0", 8) + "16");
+    if (rarely())
+      png.chunks += png_chunk("tEXt", std::string("samplesPerPixel\0"
+                                                  "16",
+                                                  18));
     if (rarely()) png.chunks += png_chunk("pHYs", big_endian(1) + big_endian(1) + '\0');
     return png_file(png);
   }

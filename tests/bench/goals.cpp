@@ -1,4 +1,4 @@
-// bench_goals LOBELIA [--quick] [--only TEXT]... [--rounds N]
+// bench_goals LOBELIA [--quick] [--only TEXT]... [--rounds N] [--commit NAME] [--committed DAY] [--keep RECORD]
 //
 // Measures every goal in rounds. Each round measures each goal once, ours beside the other, so that a change of the
 // machine's speed affects all alike.
@@ -9,7 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "base/records/highlight.hpp"
+#include "base/records/bench.hpp"
+#include "base/records/record.hpp"
+#include "base/system/error.hpp"
 #include "base/system/files.hpp"
 #include "base/system/timing.hpp"
 #include "base/words/error_time_chart.hpp"
@@ -35,34 +37,44 @@ struct Measured {
       failure = error.what();
     }
   }
+
+  records::BenchGoal record() const {
+    records::BenchGoal made;
+    made.id = goal->id;
+    made.what = goal->what;
+    made.unit = goal->unit;
+    made.against = goal->against;
+    made.ours = records::rounds_record(summary(ours));
+    made.other = records::rounds_record(summary(other));
+    made.ratio = records::rounds_record(summary(ratios));
+    made.goal = goal->goal;
+    made.at_least = goal->at_least;
+    made.met = goal->at_least ? made.ratio.median >= goal->goal : made.ratio.median <= goal->goal;
+    return made;
+  }
 };
 
-void print(const std::vector<Measured>& all) {
+void print(const records::BenchRun& bench) {
   const auto padded = [](const std::string& text, std::size_t width) {
     return fmt::format("{:<{}}", text, width);
   };
+  fmt::print("{}, {} threads, {}{}\n", bench.host.processor, bench.host.threads,
+             bench.instruction_set, bench.commit.empty() ? "" : ", commit " + bench.commit);
   fmt::print("{}{:>10}  {}{:>10}{:>9}{:>8}{:>9}\n", padded("what", 46), "ours",
              padded("held to", 42), "its", "ratio", "spread", "goal");
-  std::size_t measured = 0, met = 0;
-  for (const Measured& one : all) {
-    if (one.ratios.empty() || !one.failure.empty()) continue;
-    const Goal& goal = *one.goal;
-    const Times ratio = summary(one.ratios);
-    const bool is_met = goal.at_least ? ratio.median >= goal.goal : ratio.median <= goal.goal;
-    ++measured;
-    met += is_met;
+  std::size_t met = 0;
+  for (const records::BenchGoal& goal : bench.goals) {
+    met += goal.met;
     fmt::print("{}{:>10}  {}{:>10}{:>9.3g}{:>7.0f}%{:>9}  {}\n", padded(goal.what, 46),
-               quantity_text(summary(one.ours).median, goal.unit), padded(goal.against, 42),
-               quantity_text(summary(one.other).median, goal.unit), ratio.median,
-               100 * ratio.spread, fmt::format("{} {:g}", goal.at_least ? ">=" : "<=", goal.goal),
-               is_met ? "met" : "not met");
+               quantity_text(goal.ours.median, goal.unit), padded(goal.against, 42),
+               quantity_text(goal.other.median, goal.unit), goal.ratio.median,
+               100 * goal.ratio.spread,
+               fmt::format("{} {:g}", goal.at_least ? ">=" : "<=", goal.goal),
+               goal.met ? "met" : "not met");
   }
-  for (const Measured& one : all)
-    if (!one.failure.empty() || one.ratios.empty())
-      fmt::print("{}: not measured: {}\n", one.goal->id,
-                 one.failure.empty() ? "a quick run leaves it out" : one.failure);
+  for (const auto& [id, why] : bench.left_out) fmt::print("{}: not measured: {}\n", id, why);
   fmt::print("{} of {} goals are met. Medians; the spread is half the distance of the quartiles.\n",
-             met, measured);
+             met, bench.goals.size());
 }
 
 struct Room {
@@ -77,13 +89,17 @@ constexpr Room kRooms[] = {{"kernel", add_kernel_goals},      {"threads", add_th
 int run(int count, char** arguments) {
   CLI::App app{"Measures the goals of speed"};
   Tools tools;
-  std::string program;
+  std::string program, keep;
+  records::BenchRun bench;
   std::vector<std::string> only;
   int rounds = 0;
   app.add_option("LOBELIA", program, "The program")->required()->check(CLI::ExistingFile);
   app.add_flag("--quick", tools.quick, "Fewer rounds, and without what takes minutes");
   app.add_option("--only", only, "Goals whose id begins with this")->allow_extra_args(false);
   app.add_option("--rounds", rounds, "In place of each goal's own");
+  app.add_option("--commit", bench.commit, "Name of the source's commit, for the record");
+  app.add_option("--committed", bench.committed, "Its day");
+  app.add_option("--keep", keep, "A record that this run is added to");
   CLI11_PARSE(app, count, arguments);
   tools.program = std::filesystem::absolute(program);
   const TemporaryDirectory scratch;
@@ -94,8 +110,7 @@ int run(int count, char** arguments) {
            std::ranges::any_of(only, [&](const std::string& text) { return id.starts_with(text); });
   };
   // Before the rooms, which try other instruction sets.
-  const records::Host host = records::this_host();
-  fmt::print("{}, {} threads, {}\n", host.processor, host.threads, kernels().instruction_set);
+  bench.instruction_set = kernels().instruction_set;
   Goals goals;
   for (const Room& room : kRooms)
     // Others are not added, because their scenes and pictures take seconds to make.
@@ -103,6 +118,11 @@ int run(int count, char** arguments) {
           return text.starts_with(room.name);
         }))
       room.add(tools, goals);
+  bench.quick = tools.quick;
+  bench.host = records::this_host();
+  records::Bench kept;
+  if (!keep.empty() && std::filesystem::exists(keep))
+    kept = records::read_record<records::Bench>(keep);
   std::vector<Measured> all;
   for (const Goal& goal : goals.all)
     if (is_wanted(goal.id))
@@ -119,9 +139,20 @@ int run(int count, char** arguments) {
         fmt::print(stderr, "round {} of {}: {}\n", round + 1, rounds_of(one), one.goal->id);
         one.measure();
       }
-  print(all);
+  for (const Measured& one : all)
+    if (!one.failure.empty())
+      bench.left_out.emplace_back(one.goal->id, one.failure);
+    else if (one.ratios.empty())
+      bench.left_out.emplace_back(one.goal->id, "a quick run leaves it out");
+    else
+      bench.goals.push_back(one.record());
   for (const auto& [id, why] : goals.left_out)
-    if (is_wanted(id)) fmt::print("{}: not measured: {}\n", id, why);
+    if (is_wanted(id)) bench.left_out.emplace_back(id, why);
+  print(bench);
+  if (keep.empty()) return EXIT_SUCCESS;
+  kept.runs.push_back(std::move(bench));
+  std::filesystem::create_directories(std::filesystem::absolute(keep).parent_path());
+  records::write_record(keep, kept);
   return EXIT_SUCCESS;
 }
 

@@ -65,6 +65,8 @@ TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
   }
   EXPECT_EQ(verdicts, (std::set<std::string>{"different", "differs", "non-finite", "pass", "same",
                                              "undecided"}));
+  EXPECT_FALSE(record(a, b, everything(a)).disagreement.empty())
+      << "a record in which little is missing";
 }
 
 /// With what two files add to it: layers that pass, differ, are broken and have two sizes.
@@ -112,9 +114,9 @@ TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
 /// A pair that is compared, and one that cannot be.
 records::ComparisonSet record_of_set() {
   const Image a = fixtures::highlight(32, 32, 10, 1), b = fixtures::highlight(32, 32, 11, 1);
-  SetReport set{"one", "other", {}, {"gone.exr"}, {"new.exr"}, 2, {"one/out"}};
-  set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", compare(a, b, {}), "", 0.1});
-  set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", {}, "not a picture", 0});
+  SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2, {"one/out"}};
+  set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", "", compare(a, b, {}), "", 0.1});
+  set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", "", {}, "not a picture", 0});
   return set_record(set);
 }
 

@@ -100,14 +100,14 @@ TEST(MatchCells, GoesByTheIdsOfEqualPlaces) {
 /// Two farms, and the site of the new one.
 class Changes : public testing::Test {
  protected:
-  PublishedGallery publish(const fs::path& baseline) {
+  PublishedGallery publish(std::vector<fs::path> baselines) {
     GalleryOptions options;
     options.site = site_.path();
     options.metrics = some_metrics();
-    options.baseline = baseline;
+    options.baselines = std::move(baselines);
     return write_gallery(now_.directory(), options);
   }
-  PublishedGallery publish() { return publish(was_.directory()); }
+  PublishedGallery publish() { return publish({was_.directory()}); }
   std::string index() const { return text_of(Site(site_.path()).page("index.html")); }
   std::string sentence() const {
     const Site site(site_.path());
@@ -251,7 +251,7 @@ TEST_F(Changes, FollowNoLinkInABaseline) {
 TEST_F(Changes, RefuseByNameADirectoryThatIsNoFarm) {
   const auto code_of = [&](const fs::path& baseline) {
     try {
-      publish(baseline);
+      publish({baseline});
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
       return error.code();
@@ -280,6 +280,34 @@ TEST_F(Changes, ShowMarkupOfABaselineAsText) {
   EXPECT_THAT(site.active_content(), IsEmpty());
   EXPECT_THAT(index(), HasSubstr(hostile));
   EXPECT_THAT(cell(FakeFarm::kDiffers), HasSubstr(hostile));
+}
+
+TEST_F(Changes, HaveATimelineOfEveryRunWithItsDate) {
+  const FakeFarm oldest;
+  set_worst(oldest, FakeFarm::kPass, 2e-4);
+  const auto set_date = [](const FakeFarm& farm, int days) {
+    fs::last_write_time(farm.directory() / "farm.json",
+                        fs::file_time_type::clock::now() - std::chrono::hours(24 * days));
+  };
+  set_date(oldest, 20);
+  set_date(was_, 10);
+  publish({oldest.directory(), was_.directory()});
+  const Site site(site_.path());
+  const auto points =
+      site.cell(FakeFarm::kPass)
+          .select_nodes("//*[contains(@class,'timeline')]//g[@class='point']/title");
+  ASSERT_EQ(points.size(), 3u);
+  std::vector<std::string> words;
+  for (const auto& point : points) words.push_back(text_of(point.node()));
+  EXPECT_THAT(words[0], HasSubstr(": 0.02 %"));
+  EXPECT_THAT(words[1], HasSubstr(": 0.04 %"));
+  EXPECT_THAT(words[2], HasSubstr("this run: 0.04 %"));
+  EXPECT_LT(words[0], words[1]) << "dates";
+  EXPECT_LT(words[1], words[2]);
+  EXPECT_THAT(
+      text_of(site.cell(FakeFarm::kPass).select_node("//*[contains(@class,'timeline')]").node()),
+      HasSubstr("limit"));
+  EXPECT_THAT(sentence(), HasSubstr("Since " + words[1].substr(0, 10) + " ("));
 }
 
 TEST_F(Changes, AreRemovedByPublishingWithoutABaseline) {

@@ -1,4 +1,5 @@
-// The pages of cost and of cheapest lobes, from records that anybody may have written.
+// The pages of cost, cheapest lobes and speed, from records that anybody may have written.
+#include "base/records/bench.hpp"
 #include "base/records/cost.hpp"
 #include "base/records/lobe_search.hpp"
 #include "gallery/site/gallery.hpp"
@@ -41,6 +42,7 @@ records::Cost cost_record() {
   table.id = "lobe-n64";
   table.level = "lobe";
   table.title = "A lobe, n = 64";
+  table.unit = "s";
   table.per = "evaluation";
   table.errors = {{"max", "largest error of the lobe"}};
   table.variants = {variant("cs16", 1e-9, 0.017), variant("cosine", 2e-9, 1e-7),
@@ -73,8 +75,8 @@ TEST_F(CostPage, IsThereWithAChartOfEveryVariantThatHasAnError) {
   EXPECT_THAT(site.bad_links(), IsEmpty());
   EXPECT_THAT(site.active_content(), IsEmpty());
   const auto& page = site.page("cost.html");
-  EXPECT_EQ(page.select_nodes("//svg").size(), 1u);
-  EXPECT_EQ(page.select_nodes("//g[@class='point']").size(), 3u)
+  EXPECT_EQ(page.select_nodes("//svg").size(), 2u) << "for a screen and for a phone";
+  EXPECT_EQ(page.select_nodes("//div[@class='wide']//g[@class='point']").size(), 3u)
       << "one has no error that is known";
   EXPECT_EQ(page.select_nodes("//tbody/tr").size(), 4u);
   EXPECT_EQ(site.page("index.html").select_nodes("//nav//a[@href='cost.html']").size(), 1u);
@@ -89,6 +91,18 @@ TEST_F(CostPage, ExplainsTheFrontWithItsMeasurement) {
   EXPECT_THAT(text, HasSubstr("1.00 ns"));
 }
 
+TEST_F(CostPage, ShowsCountsWithoutTimes) {
+  records::Cost record = cost_record();
+  record.tables[0].unit = "bit operations";
+  for (records::CostVariant& one : record.tables[0].variants) {
+    one.seconds.reset();
+    one.count = 1408;
+  }
+  const std::string text = put(record);
+  EXPECT_THAT(text, HasSubstr("bit operations per evaluation"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"number\">1408</td>"));
+}
+
 TEST_F(CostPage, FindsTheStepThatBuysTheLeastAccuracyForItsTime) {
   records::Cost record = cost_record();
   std::vector<records::CostVariant>& variants = record.tables[0].variants;
@@ -101,12 +115,30 @@ TEST_F(CostPage, FindsTheStepThatBuysTheLeastAccuracyForItsTime) {
                         "an error 2 times as small (A lobe, n = 64)."));
 }
 
+TEST_F(CostPage, NumbersEveryPointOfACrowdedChartOfAPhone) {
+  records::Cost record = cost_record();
+  std::vector<records::CostVariant>& variants = record.tables[0].variants;
+  variants.clear();
+  for (int i = 0; i < 72; ++i) {
+    // Two decades of time, six of error, and one at the other end of the axis: as those of a lobe.
+    const double across = std::fmod(i * 0.618, 1), down = std::fmod(i * 0.414, 1);
+    variants.push_back(variant("v" + std::to_string(i), 1e-9 * std::pow(10, 2 * across),
+                               i == 0 ? 1e-16 : std::pow(10, -6 * down)));
+  }
+  record.tables[0].fronts[0].second.variants = {"v0"};
+  put(record);
+  const Site site(farm_.directory());
+  const auto& page = site.page("cost.html");
+  EXPECT_EQ(page.select_nodes("//div[@class='narrow']//g[@class='point']").size(), 72u);
+  EXPECT_GE(page.select_nodes("//div[@class='narrow']//*[@class='point-name']").size(), 70u);
+}
+
 TEST_F(CostPage, HasNoChartForOnePoint) {
   records::Cost record = cost_record();
   std::vector<records::CostVariant>& variants = record.tables[0].variants;
   variants.resize(1);
-  variants[0].seconds.rounds = 1;
-  variants[0].seconds.spread = 0;
+  variants[0].seconds->rounds = 1;
+  variants[0].seconds->spread = 0;
   record.tables[0].fronts = {{"max", {{"cs16"}, {}, {}, "x.svg"}}};
   const std::string text = put(record);
   EXPECT_EQ(Site(farm_.directory()).page("cost.html").select_nodes("//svg").size(), 0u);
@@ -181,15 +213,16 @@ class SearchPage : public StudyPage {
   }
 };
 
-TEST_F(SearchPage, ShowsItsChartWithoutAScript) {
+TEST_F(SearchPage, ShowsItsFirstChartWithoutAScript) {
   write("search/pk3.2.glsl", "float lobe;");
   put(search_record());
   const Site site(farm_.directory());
   EXPECT_THAT(site.bad_links(), IsEmpty());
   EXPECT_THAT(site.active_content(), IsEmpty());
   const auto& page = site.page("search.html");
-  EXPECT_EQ(page.select_nodes("//figure").size(), 1u);
-  EXPECT_EQ(page.select_nodes("//figure//g[@class='point']").size(), 5u);
+  EXPECT_EQ(page.select_nodes("//figure").size(), 3u);
+  EXPECT_EQ(page.select_nodes("//figure[not(@hidden)]").size(), 1u);
+  EXPECT_EQ(page.select_nodes("//figure[1]/div[@class='wide']//g[@class='point']").size(), 5u);
   EXPECT_EQ(page.select_nodes("//tbody/tr").size(), 5u);
   EXPECT_EQ(page.select_nodes("//a[@href='search/pk3.2.glsl']").size(), 1u);
   EXPECT_EQ(page.select_nodes("//a[contains(@href, '.glsl')]").size(), 1u);
@@ -208,6 +241,78 @@ TEST_F(SearchPage, IsSafeWhateverTheRecordSays) {
   EXPECT_THAT(Site(farm_.directory()).bad_links(), IsEmpty());
   record.lobes.clear();
   EXPECT_THAT(put(record), HasSubstr("No lobe was found"));
+}
+
+// ---- speed
+
+records::BenchGoal measured(const std::string& id, double ratio, double goal, bool at_least) {
+  records::BenchGoal made;
+  made.id = id;
+  made.what = "what " + id + " is";
+  made.unit = "s";
+  made.against = "its peer";
+  made.ours = {2e-3, 0.01, 1e-3, 3e-3, 5};
+  made.other = {0.2, 0.01, 0.1, 0.3, 5};
+  made.ratio = {ratio, 0.03, ratio, ratio, 5};
+  made.goal = goal;
+  made.at_least = at_least;
+  made.met = at_least ? ratio >= goal : ratio <= goal;
+  return made;
+}
+
+records::BenchRun run_of(const std::string& commit, double ratio) {
+  records::BenchRun run;
+  run.commit = commit;
+  run.committed = "2026-01-31";
+  run.host.processor = "A processor";
+  run.host.threads = 2;
+  run.instruction_set = "AVX2";
+  run.goals = {measured("kernel.cosine", ratio, 100, true), measured("scale.plan", 0.4, 1, false)};
+  run.left_out = {{"compare.flip", "no flip here"}};
+  return run;
+}
+
+class BenchPage : public StudyPage {
+ protected:
+  std::string put(const records::Bench& record) const {
+    return StudyPage::put("bench", record_text(record));
+  }
+};
+
+TEST_F(BenchPage, ShowsTheLastRunWithTheHistoryOfEachGoal) {
+  records::Bench record{{run_of("abc1", 84), run_of("abc2", 96), run_of("abc3", 112)}};
+  record.runs[0].goals.pop_back();
+  const std::string text = put(record);
+  const Site site(farm_.directory());
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+  EXPECT_THAT(site.active_content(), IsEmpty());
+  const auto& page = site.page("bench.html");
+  EXPECT_EQ(page.select_nodes("//tbody/tr").size(), 2u);
+  ASSERT_EQ(page.select_nodes("//figure").size(), 2u);
+  EXPECT_EQ(page.select_nodes("//figure[1]//g[@class='point']").size(), 3u);
+  EXPECT_EQ(page.select_nodes("//figure[2]//g[@class='point']").size(), 2u);
+  EXPECT_THAT(text, HasSubstr("2 of 2 goals of speed are met by abc3 of 2026-01-31."));
+  EXPECT_THAT(text, HasSubstr("compare.flip was not measured: no flip here."));
+  EXPECT_THAT(text, HasSubstr("abc1 of 2026-01-31: 84"));
+}
+
+TEST_F(BenchPage, DrawsNoChartOfOnePoint) {
+  const std::string text = put({{run_of("abc1", 84)}});
+  EXPECT_EQ(Site(farm_.directory()).page("bench.html").select_nodes("//svg").size(), 0u);
+  EXPECT_THAT(text, HasSubstr("There is one run so far."));
+  EXPECT_THAT(text, HasSubstr("1 of 2 goals of speed are met"));
+}
+
+TEST_F(BenchPage, IsSafeWhateverTheRecordSays) {
+  records::Bench record{{run_of("<img src=x>", 1e300), run_of("b", 0)}};
+  record.runs[1].goals[0].what = "<script>alert(1)</script>";
+  record.runs[1].goals[1].unit = "\"><b>";
+  record.runs[1].left_out = {{"a", "<i>"}};
+  const std::string text = put(record);
+  EXPECT_THAT(Site(farm_.directory()).active_content(), IsEmpty());
+  EXPECT_THAT(text, Not(HasSubstr("<script>alert(1)")));
+  EXPECT_THAT(text, Not(HasSubstr("<img src=x>")));
+  EXPECT_THAT(put({}), HasSubstr("Nothing was measured."));
 }
 
 }  // namespace

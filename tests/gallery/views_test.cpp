@@ -72,6 +72,8 @@ records::VerifyStability stability_record() {
                     {0.9, 0.4, 0.1},
                     {1.3, kInfinity, std::nan("")},
                     {0.9, 0.4, 0.1}}};
+  const records::StabilityPicture picture{"a.exr", "./a-picture.png", "missing.png", 0.5};
+  record.pictures = {{1000, picture, picture}};
   return record;
 }
 
@@ -118,6 +120,8 @@ class RecordViews : public ::testing::TestWithParam<ViewCase> {
     const auto path = farm_.directory() / GetParam().file;
     std::filesystem::create_directories(path.parent_path());
     write_file(path, record);
+    if (std::string(GetParam().name) == "stability")
+      write_file(path.parent_path() / "a-picture.png", tiny_png());
     write_gallery(farm_.directory());
     return read_file(farm_.directory() / page(), 1 << 20);
   }
@@ -197,6 +201,9 @@ TEST_P(StabilityView, ShowsMissingNumbersAsSuch) {
   EXPECT_THAT(text, HasSubstr("hard because &amp; why"));
   EXPECT_THAT(text, HasSubstr("no number"));
   EXPECT_THAT(text, HasSubstr("<strong>5</strong> not compared"));
+  const Site site(farm_.directory());
+  EXPECT_EQ(site.page(page()).select_nodes("//img[@src='stability/a-picture.png']").size(), 2u);
+  EXPECT_THAT(text, HasSubstr("The picture missing.png is missing."));
 }
 INSTANTIATE_TEST_SUITE_P(One, StabilityView, ::testing::Values(kViews[1]));
 

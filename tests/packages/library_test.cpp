@@ -97,6 +97,7 @@ TEST(Library, ReportsErrorsAndJudgesAsDocumented) {
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <thread>
 static int failed = 0;
 #define CHECK(what) ((what) ? 0 : (failed = 1, std::printf("line %d: %s\n", __LINE__, #what)))
 template <class F> int code(F f) {
@@ -159,14 +160,25 @@ int main(int, char** argv) {
   CHECK(code([&] { lobe_value("cosine", 3, 64); }) == 2);
   CHECK(code([&] { lobe_value("kosine", 0, 64); }) == 2);
   CHECK(code([&] { coefficient("phong_rdf", "schlick", 64, "paper"); }) == 3);
+  // Several threads at once.
+  int wrong[4] = {};
+  std::vector<std::thread> threads;
+  for (int& mine : wrong)
+    threads.emplace_back([&] { mine = code([&] {
+      RenderSettings small; small.width = 48; small.height = 32;
+      const Rendered own = render(scene, small);
+      if (!compare(own.picture, read_picture("one.exr")).pass) throw Error(ErrorCode::internal, "differs");
+    }); });
+  for (std::thread& thread : threads) thread.join();
+  for (const int mine : wrong) CHECK(mine == 0);
   return failed;
 }
 )");
-  const Ran ran =
-      installed_tree().shell(kLibraries +
-                             "c++ -std=c++17 -I\"$PREFIX/include\" contract.cpp -o contract "
-                             "-L\"$libraries\" -llobelia && LD_LIBRARY_PATH=$libraries ./contract "
-                             "\"$PREFIX/share/lobelia/scenes/oblique_45.xml\"");
+  const Ran ran = installed_tree().shell(
+      kLibraries +
+      "c++ -std=c++17 -pthread -I\"$PREFIX/include\" contract.cpp -o contract "
+      "-L\"$libraries\" -llobelia && LD_LIBRARY_PATH=$libraries ./contract "
+      "\"$PREFIX/share/lobelia/scenes/oblique_45.xml\"");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
 }
 

@@ -65,7 +65,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"verify", "papers"},
        2,
        "unknown subcommand 'papers' of 'lobelia verify'; allowed: paper, stability, references, "
-       "verdicts, profiles; did you mean 'paper'?"},
+       "verdicts, profiles, highlights; did you mean 'paper'?"},
       {{"farm", "stauts", "out"}, 2, "did you mean 'status'?"},
       {{"gallery", "pubilsh", "out"}, 2, "did you mean 'publish'?"},
       {{"farm", "status", "--josn", "-", "out"}, 2, "did you mean '--json'?"},
@@ -82,6 +82,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"plan", "--json", broken}, 2, "is no JSON; allowed: a file to write, or -"},
       {{"verify", "stability", "--lobe", "cs15"}, 2, "--lobe 'cs15' is unknown"},
       {{"verify", "stability", "--json", "no/such/s.json"}, 4, "no/such/s.json"},
+      {{"verify", "stability", "--pictures", text_exr}, 4, "text.exr"},
       {{"cost", "--level", "fixed-point"}, 2, "; use lobelia "},
       {{"models", "--exponent", "nan"}, 2, "allowed: 0.001 to 1e+08"},
       {{"render", scene, "-o", "a.exr", "--exposure", "nan"}, 2, "allowed: -100 to 100"},

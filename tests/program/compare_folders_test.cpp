@@ -1,4 +1,4 @@
-// lobelia compare with folders and its reports, as a user runs it.
+// lobelia compare with folders, second references and its reports, as a user runs it.
 #include <regex>
 
 #include "base/pictures/image_io.hpp"
@@ -116,6 +116,19 @@ TEST_F(CompareFolders, HaveOneRangeOfExposuresForTheWholeSet) {
   EXPECT_LT(json("one.json")["viewing"]["hdrExposures"]["count"], range(0)["count"]);
 }
 
+TEST_F(CompareFolders, ShowHowFarTwoReferencesAreFromEachOther) {
+  put("a/x.exr", 0.10f), put("b/x.exr", 0.11f), put("c.exr", 0.13f);
+  const auto result = compare({"a/x.exr", "b/x.exr", "--reference-floor", "c.exr", "--metrics",
+                               "rmse", "--json", "one.json"});
+  EXPECT_EQ(result.exit_code, 1) << "the second reference has no part in the verdict";
+  EXPECT_THAT(result.output_tail, HasSubstr("C and B"));
+  const auto record = json("one.json");
+  EXPECT_EQ(record["referenceFloor"]["c"], "c.exr");
+  EXPECT_NEAR(record["referenceFloor"]["metrics"]["rmse"].get<double>(),
+              2 * record["metrics"]["rmse"].get<double>(), 1e-6);
+  EXPECT_EQ(compare({"a/x.exr", "b/x.exr", "--reference-floor", "none.exr"}).exit_code, 3);
+}
+
 TEST_F(CompareFolders, WarnWithoutFailing) {
   put("a/x.exr", 0.10f), put("b/x.exr", 0.11f);
   const auto result = compare({"a/x.exr", "b/x.exr", "--fail", "rmse=9", "--no-default-limits",
@@ -159,7 +172,7 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   put("b/deep/x.exr", 0.1f);
   fs::create_directory_symlink("b", path("other_b"));
   const auto refused = [&](std::vector<std::string> more, const char* why) {
-    more.insert(more.begin(), {"a", "b", "--also-accept", "c"});
+    more.insert(more.begin(), {"a", "b", "--reference-floor", "c"});
     expect_refused(more, why);
   };
   const char* inside = "which is read by this command; choose a folder outside it";
@@ -251,6 +264,7 @@ TEST_F(CompareFolders, NameTheFilesWhoseSizesDiffer) {
   };
   says({"a/x.exr", "b/x.exr"}, "10 x 20 against 20 x 20 (a/x.exr against b/x.exr)");
   says({"a", "b"}, "10 x 20 against 20 x 20 (a/x.exr against b/x.exr)");
+  says({"b/x.exr", "b/x.exr", "--reference-floor", "c.exr"}, "(c.exr against b/x.exr)");
   says({"b/x.exr", "b/x.exr", "--a-replicate", "c.exr"}, "(the picture against c.exr)");
   says({"b/x.exr", "b/x.exr", "--b-error", "c.exr"}, "(the picture against c.exr)");
   says({"a/x.exr", "a/x.exr", "--scene", kScenes + "head_on.xml"}, "a/x.exr has 10 x 20 pixels");

@@ -42,13 +42,20 @@ TEST_F(HowPicturesAreRead, IsReportedForCurvesOrGainMaps) {
                                     HasSubstr("<dt>Primaries</dt>\n<dd>0.708 0.292 ")));
 }
 
-TEST_F(HowPicturesAreRead, IsSaidOfLayers) {
+TEST_F(HowPicturesAreRead, IsSaidOfLayersAndTheirNoise) {
   for (const char* name : {"a.exr", "b.exr"})
-    flat(name, 1, {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2)});
-  const std::vector<std::string> pair{"a.exr", "b.exr", "--layer", "specular"};
+    flat(name, 1,
+         {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2),
+          channel("spec.StandardError.R", 0.1f), channel("spec.StandardError.G", 0.1f),
+          channel("spec.StandardError.B", 0.1f)});
+  const std::vector<std::string> pair{
+      "a.exr", "b.exr", "--layer", "specular", "--noise-from-layers", "b"};
   EXPECT_THAT(compare(pair).output_tail,
-              AllOf(HasSubstr("a: Layer: spec\n"), HasSubstr("b: Layer: spec\n")));
-  EXPECT_THAT(pages(pair, 0), HasSubstr("<dt>Layer</dt>\n<dd>spec</dd>"));
+              AllOf(HasSubstr("a: Layer: spec\n"), HasSubstr("b: Layer: spec\n"),
+                    HasSubstr("b: Noise: layer spec.StandardError\n")));
+  EXPECT_THAT(pages(pair, 6),
+              AllOf(HasSubstr("<dt>Layer</dt>\n<dd>spec</dd>"),
+                    HasSubstr("<dt>Noise</dt>\n<dd>layer spec.StandardError</dd>")));
 }
 
 }  // namespace

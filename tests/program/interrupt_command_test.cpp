@@ -109,7 +109,7 @@ TEST_F(Interrupted, LongWorkEndsAndLeavesNothing) {
       "compare a b --exposures -10,10,100 --json out/r.json --csv out/r.csv --diff-image out/maps",
       "render \"$SCENES\"oblique_45.xml --width 4096 --height 4096 --samples 4096 -q -o out/x.exr",
       "cost \"$SCENES\"oblique_45.xml --level lobe --level picture --thorough -q -o out",
-      "verify stability -q --json out/s.json",
+      "verify stability -q --json out/s.json --pictures out",
       "verify paper --json out/p.json --plots out",
   };
   for (const char* arguments : commands) expect_ended_by_signals(arguments);

@@ -2,6 +2,7 @@
 #include "base/pictures/image_io.hpp"
 #include "compare/uncertainty/noise_draws.hpp"
 #include "run_lobelia.hpp"
+#include "tests/base/picture_files.hpp"
 #include "tests/json.hpp"
 #include "tests/test.hpp"
 
@@ -66,6 +67,44 @@ TEST(RenderCommand, WritesAnErrorCoveringAnotherSeed) {
                   directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("verdict: same"));
+}
+
+/// An EXR with a layer of X, Y and Z, and the squares of samples that scatter by `deviation` around them.
+void write_moments(const std::filesystem::path& path, float value, float deviation) {
+  std::vector<fixtures::ExrChannel> channels;
+  for (const char* axis : {"X", "Y", "Z"}) {
+    channels.push_back({std::string("path.") + axis, std::vector<float>(256, value)});
+    channels.push_back({std::string("m2_path.") + axis,
+                        std::vector<float>(256, value * value + deviation * deviation)});
+  }
+  fixtures::write_exr_channels(path, 16, 16, channels);
+}
+
+TEST(CompareWithNoise, ReadsItFromTheLayersOfTheFilesThemselves) {
+  const TemporaryDirectory directory;
+  write_moments(directory.path() / "a.exr", 1, 0.5f);
+  write_moments(directory.path() / "b.exr", 1, 0.5f);
+  write_moments(directory.path() / "other.exr", 2, 0.5f);
+  const auto compare = [&](const char* b, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"compare", "a.exr", b, "--layer", "path"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_lobelia(arguments, directory.path());
+  };
+  const std::vector<std::string> both{"--noise-from-layers", "both", "--a-samples", "64",
+                                      "--b-samples",         "64"};
+  const auto same = compare("b.exr", both);
+  EXPECT_NE(same.exit_code, 1) << same.output_tail;
+  auto with_record = both;
+  with_record.insert(with_record.end(), {"--json", "record.json"});
+  EXPECT_EQ(compare("other.exr", with_record).exit_code, 1);
+  const auto record = read_json(directory.path() / "record.json");
+  EXPECT_EQ(record["uncertainty"]["a"]["layer"], "m2_path");
+  EXPECT_EQ(record["uncertainty"]["a"]["freedom"], 63);
+  const auto unknown = compare("b.exr", {"--noise-from-layers", "a"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.output_tail, HasSubstr("does not say how many samples a pixel has"));
+  EXPECT_EQ(compare("b.exr", {"--a-samples", "64"}).exit_code, 2);
+  EXPECT_EQ(compare("b.exr", {"--noise-from-layers", "a", "--a-replicate", "b.exr"}).exit_code, 2);
 }
 
 /// Every value a normal number of this mean and deviation, from a seed.

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/pictures/image_io.hpp"
+#include "base/records/record.hpp"
 #include "base/system/error.hpp"
 #include "base/system/files.hpp"
 #include "base/system/sha256.hpp"
@@ -24,7 +25,7 @@ class FileHashesTest : public testing::Test {
   /// How many files were read for the old one's hash.
   std::size_t reads() const {
     FileHashes hashes(memory());
-    EXPECT_EQ(hashes.hash(old_), hex(sha256_of_file(old_)));
+    EXPECT_EQ(hashes.hash(old_).sha256, hex(sha256_of_file(old_)));
     hashes.save();
     return hashes.read_count();
   }
@@ -54,7 +55,8 @@ TEST_F(FileHashesTest, SeesEveryChange) {
   const fs::path file = directory_.path() / "file";
   for (const char* text : {"one", "two", "six", "three", "one"}) {
     write_file(file, std::string_view(text));
-    EXPECT_EQ(hashes.hash(file), hex(sha256(text)));
+    EXPECT_EQ(hashes.hash(file).sha256, hex(sha256(text)));
+    EXPECT_EQ(hashes.hash(file).bytes, std::string_view(text).size());
   }
   // In place, with the time of change set back.
   struct stat before {};
@@ -64,7 +66,7 @@ TEST_F(FileHashesTest, SeesEveryChange) {
   const timespec times[2] = {before.st_atim, before.st_mtim};
   ::futimens(fd, times);
   ::close(fd);
-  EXPECT_EQ(hashes.hash(file), hex(sha256("two")));
+  EXPECT_EQ(hashes.hash(file).sha256, hex(sha256("two")));
 }
 
 TEST_F(FileHashesTest, WorksWithoutAMemory) {
@@ -72,14 +74,14 @@ TEST_F(FileHashesTest, WorksWithoutAMemory) {
   EXPECT_THROW(hashes.hash(directory_.path()), Error);
   EXPECT_THROW(hashes.hash("/no/such/file"), Error);
   EXPECT_THROW(hashes.hash("/dev/zero"), Error);
-  EXPECT_EQ(hashes.hash(old_), hex(sha256_of_file(old_)));
+  EXPECT_EQ(hashes.hash(old_).sha256, hex(sha256_of_file(old_)));
   hashes.save();
 }
 
 TEST_F(FileHashesTest, GivesUpAFileThatTakesTooLong) {
   FileHashes hashes{fs::path()};
   EXPECT_THROW(hashes.hash(InputFile(old_), std::chrono::seconds(0)), Error);
-  EXPECT_EQ(hashes.hash(InputFile(old_), std::chrono::hours(1)), hex(sha256_of_file(old_)));
+  EXPECT_EQ(hashes.hash(InputFile(old_), std::chrono::hours(1)).sha256, hex(sha256_of_file(old_)));
 }
 
 class ContentTest : public FileHashesTest {
@@ -97,7 +99,7 @@ TEST_F(ContentTest, IsIndependentOfPathsOrTheirOrder) {
   const auto content = [&](const std::vector<std::pair<std::string, fs::path>>& libraries) {
     ContentReader reader(hashes);
     for (const auto& [name, path] : libraries) reader.add("library", name, path);
-    return reader.sha256();
+    return reader.content().sha256;
   };
   const fs::path a = file("a/liba", "A"), b = file("b/libb", "B"), moved = file("c/liba", "A");
   const std::string both = content({{"liba", a}, {"libb", b}});
@@ -115,7 +117,7 @@ TEST_F(ContentTest, IsNotMadeOfAFileThatAFaultHides) {
   EXPECT_THROW(reader.add("library", "memory", "/proc/self/mem"), Error);
   EXPECT_NO_THROW(reader.add("library", "gone", directory_.path() / "gone"));
   EXPECT_NO_THROW(reader.add("library", "no file", directory_.path()));
-  EXPECT_NE(reader.sha256(), "");
+  EXPECT_EQ(reader.content().files.size(), 2u);
 }
 
 TEST_F(ContentTest, ExplainsTheRefusalOfAHugeFile) {
@@ -134,20 +136,28 @@ TEST_F(ContentTest, CoversAllFilesOfADirectoryButPythonsCaches) {
   const auto content = [&] {
     ContentReader reader(hashes);
     reader.add_directory(directory_.path() / "d");
-    return reader.sha256();
+    return reader.content();
   };
-  EXPECT_EQ(content(), "");
+  EXPECT_EQ(content().sha256, "");
   file("d/x.py", "x");
   file("d/deep/er/y", "y");
-  const std::string before = content();
+  const Content before = content();
+  EXPECT_EQ(before.files.size(), 2u);
   file("d/__pycache__/x.pyc", "compiled");
   fs::create_directory_symlink("/", directory_.path() / "d" / "root");
-  EXPECT_EQ(content(), before);
+  EXPECT_EQ(content().sha256, before.sha256);
   file("d/deep/er/y", "z");
-  const std::string changed = content();
-  EXPECT_NE(changed, before);
   file("d/new", "n");
-  EXPECT_NE(content(), changed);
+  const Content after = content();
+  EXPECT_NE(after.sha256, before.sha256);
+  const std::string d = (directory_.path() / "d").string();
+  EXPECT_THAT(file_changes(before, after, 5),
+              testing::ElementsAre(d + "/deep/er/y changed", d + "/new is new"));
+  EXPECT_THAT(file_changes(after, before, 1),
+              testing::ElementsAre(d + "/deep/er/y changed", "and 1 files more"));
+  const Content read = records::parse_record<Content>(records::record_text(after), "after");
+  EXPECT_EQ(read.sha256, after.sha256);
+  EXPECT_THAT(file_changes(read, after, 5), testing::IsEmpty());
 }
 
 // Pictures that are there already, as an engine: which are hashed for their keys, and which are not read at all.

@@ -170,6 +170,7 @@ class BlenderLayers : public testing::Test {
 TEST_F(BlenderLayers, AreFoundByTheNamesThatPeopleUse) {
   const auto path = render();
   EXPECT_THAT(read_picture(path, "").source.channels, Contains("ViewLayer.Combined.R"));
+  EXPECT_EQ(read_picture(path, "").source.samples, 4);
   for (const auto& [name, channel] : {std::pair{"combined", "ViewLayer.Combined.G"},
                                       {"ViewLayer.Combined", "ViewLayer.Combined.G"},
                                       {"albedo", "ViewLayer.Denoising Albedo.G"},

@@ -81,6 +81,27 @@ TEST(Plan, TakesTheRequestedPrecision) {
   EXPECT_NE(make_plan(canonical_scene("head_on"), EffectPolicy::kAll).precision_reason, "");
 }
 
+TEST(Plan, UsesHalfFloatsOnlyOnRequest) {
+  const Plan plan =
+      make_plan(canonical_scene("oblique_45"), EffectPolicy::kAsCalledFor, Precision::kFloat16);
+  EXPECT_NE(plan.precision_reason.find("float16 was asked for, and is emulated"),
+            std::string::npos);
+  EXPECT_NE(plan.kernel.find("waves"), std::string::npos) << "no fused kernel has half floats";
+  for (const LobeId& lobe : all_lobes())
+    EXPECT_NE(sufficient_precision({{}, lobe, Normalisation::kExact, 1e-3}, 2),
+              Precision::kFloat16);
+}
+
+TEST(Plan, RefusesHalfFloatsForAnExponentThatTheyDoNotHave) {
+  Scene scene = canonical_scene("oblique_45");
+  const auto plan_for = [&](double n) {
+    scene.materials[0].highlight.exponent = n;
+    make_plan(scene, EffectPolicy::kAsCalledFor, Precision::kFloat16);
+  };
+  EXPECT_NO_THROW(plan_for(65504));
+  EXPECT_THROW(plan_for(65505), Error);
+}
+
 TEST(Plan, NeedsNoShadowsWhereNoSphereIsBetween) {
   Scene beside = canonical_scene("two_spheres"), dark = beside,
         behind = canonical_scene("point_light");

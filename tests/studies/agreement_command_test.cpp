@@ -56,6 +56,8 @@ TEST_F(AgreementCommand, FindsEveryEngineWithinItsFloor) {
             }));
   EXPECT_THAT(read_file(directory.path() / "table" / "agreement.md", 1 << 20),
               HasSubstr("`lobelia verify references --small`: pictures 64 pixels wide"));
+  EXPECT_THAT(read_file(directory.path() / "table" / "agreement.csv", 1 << 22),
+              HasSubstr("\nhighlight,"));
 }
 
 /// Multiplies a coefficient by 1.001 in the files of an engine that is told formulas in its own language.

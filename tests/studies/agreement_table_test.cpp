@@ -105,6 +105,7 @@ TEST(AgreementTable, SaysMissedWhereATargetIsMissed) {
   EXPECT_THAT(page, HasSubstr(" | 1/1 MISSED |"));
   EXPECT_THAT(page, HasSubstr("*Blender native*: the reason is not known"));
   EXPECT_THAT(report_text(agreement), HasSubstr("1e-2 MISSED"));
+  EXPECT_THAT(report_csv(agreement), HasSubstr(",missed,"));
 }
 
 TEST(AgreementPage, HasTheProgramsSectionsWithTheirColumns) {

@@ -11,12 +11,27 @@ namespace lobelia::cost {
 namespace {
 
 Variant variant(const char* name, double seconds, double error, double spread = 0) {
-  return {name, {{"lobe", name}}, {{"max", error}}, {seconds, spread, seconds, seconds, 5}, {}, {}};
+  Variant result{name, {{"lobe", name}}, {{"max", error}}, {}, {}, {}, {}, {}};
+  result.seconds = records::MeasuredRounds{seconds, spread, seconds, seconds, 5};
+  return result;
 }
 
 Table table(std::vector<Variant> variants) {
-  Table result{"lobe-n64",          "lobe", "A lobe", "evaluation", {{"max", "largest error"}},
+  Table result{"lobe-n64",          "lobe", "A lobe", "s", "evaluation", {{"max", "largest error"}},
                std::move(variants), {},     {}};
+  add_fronts(result);
+  return result;
+}
+
+/// The same, counted and not timed.
+Table counted_table(std::vector<Variant> variants) {
+  Table result = table(std::move(variants));
+  result.unit = "bit operations";
+  for (Variant& variant : result.variants) {
+    variant.count = variant.seconds->median;
+    variant.seconds.reset();
+  }
+  result.fronts.clear();
   add_fronts(result);
   return result;
 }
@@ -39,7 +54,7 @@ TEST(ParetoFront, MatchesItsDefinitionForAnyVariants) {
     const Table t = table(variants);
     const records::CostFront front = pareto_front(t, 0);
     const auto dominates = [&](std::size_t i, std::size_t j) {
-      const double ti = variants[i].seconds.median, tj = variants[j].seconds.median;
+      const double ti = cost_of(variants[i]).median, tj = cost_of(variants[j]).median;
       const double ei = variants[i].errors[0].second, ej = variants[j].errors[0].second;
       return ti <= tj && ei <= ej && (ti < tj || ei < ej || i < j);
     };
@@ -56,7 +71,7 @@ TEST(ParetoFront, MatchesItsDefinitionForAnyVariants) {
     }
     EXPECT_EQ(front.variants.size() + front.dominated_by.size(), variants.size());
     EXPECT_TRUE(std::ranges::is_sorted(front.variants, {}, [&](const std::string& name) {
-      return std::ranges::find(variants, name, &Variant::name)->seconds.median;
+      return cost_of(*std::ranges::find(variants, name, &Variant::name)).median;
     }));
   }
 }
@@ -98,6 +113,16 @@ TEST(CostCsv, HasALineForEachVariantAndError) {
   EXPECT_THAT(csv, HasSubstr(",max,0.5,,no"));
 }
 
+TEST(AnErrorThatIsTheLargestOfSome, IsPrintedWithItsBoundWhereTheDigitsDiffer) {
+  records::Cost bracketed = report();
+  std::vector<Variant>& variants = bracketed.tables[0].variants;
+  variants[0].errors_at_most = {{"max", 0.0170001}};
+  variants[1].errors_at_most = {{"max", 3e-7}};
+  const std::string text = cost_text(bracketed, true);
+  EXPECT_THAT(text, AllOf(HasSubstr(" 0.017  max"), HasSubstr(" 1e-07..3e-07  max")));
+  EXPECT_THAT(cost_csv(bracketed), HasSubstr(",max,1e-07,,yes,3e-07\r\n"));
+}
+
 TEST(CostText, ShowsTheFrontAndWithAllEverything) {
   EXPECT_THAT(cost_text(report(), false), Not(HasSubstr("slow")));
   EXPECT_THAT(cost_text(report(), true), HasSubstr("slow"));
@@ -113,7 +138,15 @@ TEST(CostChart, IsXmlWithAPointForEachVariantEvenWhereItHasNoError) {
   EXPECT_THAT(points[0].node().child("title").text().as_string(), HasSubstr("slow, \"but\""));
 }
 
-TEST(CostTable, NamesTheUnitOfItsTimes) {
+TEST(CountedTables, NameTheirCountsInEveryForm) {
+  records::Cost counted = report();
+  counted.tables = {counted_table({variant("8 bits", 64, 0.1), variant("16 bits", 256, 0.001)})};
+  const Table& table = counted.tables[0];
+  EXPECT_THAT(cost_csv(counted), HasSubstr(",evaluation,bit operations,256,"));
+  EXPECT_THAT(cost_text(counted, true), HasSubstr("4.0 times the bit operations, 100 times less"));
+  EXPECT_THAT(cost_text(counted, true), AllOf(Not(HasSubstr("%")), Not(HasSubstr("256 s"))));
+  EXPECT_THAT(cost_chart(table, 0), HasSubstr(">bit operations per evaluation<"));
+  EXPECT_THAT(cost_chart(table, 0), HasSubstr("16 bits: 256 bit operations, max 0.001"));
   EXPECT_THAT(cost_csv(report()), HasSubstr(",evaluation,s,1e-09,"));
   EXPECT_THAT(cost_chart(report().tables[0], 0), HasSubstr(">ns per evaluation<"));
 }

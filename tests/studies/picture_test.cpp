@@ -32,10 +32,14 @@ TEST(PictureLevel, ChecksEachLobeInEachPrecision) {
     EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
     EXPECT_EQ(variant.errors.size(), table.errors.size());
     ASSERT_TRUE(variant.facts && variant.facts->rays) << variant.name;
-    // The fused kernel traces no ray far from the highlight.
-    EXPECT_LT(variant.facts->rays->camera, 128 * 128 * 0.6);
+    // Half floats have no fused kernel, which traces no ray far from the highlight.
+    if (variant.name.ends_with("(emulated)")) {
+      EXPECT_EQ(variant.facts->rays->camera, 128 * 128);
+    } else {
+      EXPECT_LT(variant.facts->rays->camera, 128 * 128 * 0.6);
+    }
     EXPECT_GT(variant.facts->rays->camera, 0);
-    EXPECT_GT(variant.seconds.median, 0);
+    EXPECT_GT(cost_of(variant).median, 0);
   }
   EXPECT_THAT(table.remarks.back(), HasSubstr("--accuracy goes by"));
   EXPECT_LT(find(table, "cs16, float32").facts.value().predicted_cost,

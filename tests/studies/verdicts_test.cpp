@@ -49,7 +49,8 @@ TEST(Verdicts, KeepThePromisedRateOfFalseAlarms) {
 TEST(Verdicts, UsePicturesWithOneExpectation) {
   for (const Noise noise : {Noise::kColours, Noise::kGamma, Noise::kFireflies, Noise::kRenders}) {
     const Cell cell{noise, 16, 4, 2};
-    const Image one = picture_of(cell, 1), again = picture_of(cell, 1), other = picture_of(cell, 2);
+    const Image one = picture_of(cell, 1, nullptr), again = picture_of(cell, 1, nullptr),
+                other = picture_of(cell, 2, nullptr);
     EXPECT_TRUE(std::ranges::equal(one.values(), again.values()));
     EXPECT_FALSE(std::ranges::equal(one.values(), other.values()));
     // The means over many pictures of two sets of seeds agree within their error.
@@ -57,8 +58,8 @@ TEST(Verdicts, UsePicturesWithOneExpectation) {
     constexpr int kPictures = 200;
     for (int k = 0; k < kPictures; ++k) {
       double apart = 0;
-      const Image a = picture_of(cell, std::uint64_t(10 + 2 * k)),
-                  b = picture_of(cell, std::uint64_t(11 + 2 * k));
+      const Image a = picture_of(cell, std::uint64_t(10 + 2 * k), nullptr),
+                  b = picture_of(cell, std::uint64_t(11 + 2 * k), nullptr);
       for (std::size_t i = 0; i < a.values().size(); ++i)
         apart += double(a.values()[i]) - double(b.values()[i]);
       sum += apart;
@@ -68,11 +69,12 @@ TEST(Verdicts, UsePicturesWithOneExpectation) {
   }
 }
 
-TEST(VerdictReport, NamesTheKindsOutside) {
+TEST(VerdictReport, NamesWhatIsOutsideAndDrawsCurves) {
   records::VerifyVerdicts verdicts;
   verdicts.significance = 0.01;
   verdicts.seeds = 100;
   verdicts.outside = 1;
+  verdicts.left_out = "Blender is not installed";
   verdicts.cells = {
       {"grey", 48, 16, 2, {{"", 0, 100, 90, 9, 1}, {"5 % dimmer", 0.05, 100, 0, 30, 70}}, 6, true},
       {"grey",
@@ -86,6 +88,12 @@ TEST(VerdictReport, NamesTheKindsOutside) {
   EXPECT_THAT(text, HasSubstr("OUTSIDE 9 of 100"));
   EXPECT_THAT(text, HasSubstr("70 of 100"));
   EXPECT_THAT(text, HasSubstr("10 false alarms in 200 pairs"));
+  EXPECT_THAT(text, HasSubstr("cycles: left out, Blender is not installed"));
+  const auto drawn = charts(verdicts);
+  ASSERT_EQ(drawn.size(), 1u);
+  ASSERT_EQ(drawn[0].series.size(), 2u);
+  EXPECT_EQ(drawn[0].series[0].x, (std::vector{0.0, 0.05}));
+  EXPECT_EQ(drawn[0].series[0].y, (std::vector{0.01, 0.7}));
 }
 
 }  // namespace

@@ -145,6 +145,43 @@ test('a map by a metric has the largest value that the metric has, and is dark w
   await close(page);
 });
 
+test('beside a map is the histogram of its values, weighed as FLIP’s tool does, on the map’s own scale', async () => {
+  const bad = path.join(directory, 'bad'), badSite = path.join(directory, 'bad-site');
+  writeFarm(bad, { axes: { model: ['phong'] }, size: kSize, noise: 0.3 });
+  lobelia('gallery', bad, '-o', badSite);
+  const page = await open(here.browser, fileUrl(badSite) + 'cells/phong/index.html#mode=diff&a=lobelia&b=blender', { acceptDownloads: true });
+  await ready(page);
+  const histogram = page.locator('.map-histogram'), numbers = (words) => words.match(/\d+(?:\.\d+)?/g).map(Number);
+  assert.equal(await histogram.isVisible(), false, 'a difference of values has none');
+  for (const [id, title, top] of [['flip.ldr', 'LDR-FLIP, 0 to 1', 1], ['ciede2000', 'CIEDE2000', 10], ['delta_e_itp', 'delta E ITP', 10]]) {
+    await page.evaluate((measure) => { location.hash = `mode=diff&a=lobelia&b=blender&measure=${measure}`; }, id);
+    await says(page, '.legend-bar', new RegExp(`^0${top}${title}`));
+    await says(page, '.map-histogram h3', new RegExp(title));
+    // The same from the values that the figure of the map saves.
+    const csv = async (button) => {
+      await page.getByRole('button', { name: button }).click();
+      const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: /^CSV/ }).click()]);
+      await page.keyboard.press('Escape');
+      return readFileSync(await download.path(), 'utf8').trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+    };
+    const values = (await csv('Figure: what the viewer shows')).map((row) => row.at(-1)).sort((a, b) => a - b), sum = values.reduce((a, b) => a + b);
+    assert.equal(values.length, kSize * kSize);
+    const quartile = (share) => { let below = 0; return values.find((v) => (below += v) >= share * sum); };
+    const [mean, median, first, third, least, most] = numbers(await histogram.locator('figcaption').textContent());
+    const near3 = (a, b, what) => assert.ok(Math.abs(a - b) <= 6e-3 * b, `${id}, ${what}: ${a}, not ${b}`);
+    near3(mean, sum / values.length, 'mean');
+    [first, median, third].forEach((one, i) => near3(one, quartile((i + 1) / 4), `quartile ${i + 1}`));
+    near3(least, values[0], 'least');
+    near3(most, values.at(-1), 'most');
+    assert.deepEqual((await histogram.locator('svg .band-label').allTextContents()).slice(0, 2), ['min', 'mean']);
+    const bars = await csv('Figure: Values of the map');
+    assert.equal(bars.length, 100);
+    assert.ok(Math.abs(bars.reduce((all, [, y]) => all + y, 0) / (sum * 1e6 / values.length) - 1) < 1e-3, 'the bars have all values');
+  }
+  await requireAccessible(page, 'a map and its histogram');
+  await close(page);
+});
+
 test('the worst pixel of two pictures is found, and brought into the middle of a zoomed view', async () => {
   const page = await cellPage('#a=blender&b=lobelia&z=20&x=5&y=5');
   await page.keyboard.press('w');

@@ -1,4 +1,4 @@
-// A gallery with an earlier run: the sentence, the filter, old against new.
+// A gallery with earlier runs: the sentence, the filter, old against new, the timeline.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readdirSync, utimesSync, writeFileSync } from 'node:fs';
@@ -8,7 +8,7 @@ import { address, close, fileUrl, launch, open, program, ready, requireAccessibl
 import { exr, kPeak, ours, seal, writeFarm } from './farm.mjs';
 
 const kSize = 32;
-const directory = scratch(), [second, now] = ['second', 'now'].map((name) => path.join(directory, name));
+const directory = scratch(), runs = ['first', 'second', 'now'].map((name) => path.join(directory, name)), [first, second, now] = runs;
 const site = path.join(directory, 'site'), small = path.join(directory, 'small');
 let browser, server, publishing;
 
@@ -18,16 +18,17 @@ const kWorse = 'cells/16-phong/index.html';
 
 before(async () => {
   const axes = { model: ['phong', 'blinn', 'ward'], exponent: ['16', '128'] };
-  writeFarm(second, { axes, size: kSize, cell: (i) => ({ status: i === 2 ? 'differs' : 'pass' }) });
+  for (const run of [first, second])
+    writeFarm(run, { axes, size: kSize, cell: (i) => ({ status: i === 2 ? 'differs' : 'pass' }) });
   // The same cells by another order of the axes, without ward, with 64.
   writeFarm(now, { axes: { exponent: ['16', '128', '64'], model: ['phong', 'blinn'] }, size: kSize, cell: (i) => ({ status: i === 0 ? 'differs' : 'pass' }) });
   const old = path.join(second, 'cells/phong-16');
   writeFileSync(path.join(old, 'blender.exr'), exr(kSize, kSize, (x, y) => ours(x, y, kSize).map((v) => v / 4)));
   seal(old);
-  // The farm's own date is of this minute.
-  const day = new Date('2026-11-20T12:00:00Z');
-  utimesSync(path.join(second, 'farm.json'), day, day);
-  publishing = gallery('-o', site, '--baseline', second);
+  // The farm's own dates are of this minute.
+  for (const [run, day] of [[first, 10], [second, 20]])
+    utimesSync(path.join(run, 'farm.json'), new Date(`2026-11-${day}T12:00:00Z`), new Date(`2026-11-${day}T12:00:00Z`));
+  publishing = gallery('-o', site, '--baseline', first, '--baseline', second);
   gallery('-o', small, '--metrics-only', '--baseline', second);
   [browser, server] = await Promise.all([launch(), serve(site)]);
 });

@@ -133,7 +133,7 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
       verdict: differs ? 'differs' : 'pass', a: 'lobelia.exr', b: `${engine}.exr`, nonfinite: { a: 0, b: 0 },
       viewing: { exposureStops: -1.3, pixelsPerDegree: 67 },
       metrics: { rmse: worst * 0.1, max_abs: worst * kPeak, 'max_abs.x': size / 2, 'max_abs.y': Math.round(size / 3), max_rel_peak: worst, ssim: 1 - worst, drift: engine === 'povray' ? -2e-7 : 1e-7 },
-      limits: [{ metric: 'max_rel_peak', limit, value: worst, pass: !differs }],
+      limits: [{ metric: 'max_rel_peak', limit, value: worst, pass: !differs }], disagreement: [],
     }));
     writeFileSync(path.join(cell, `lobelia-${engine}.png`), shownOnce(`difference ${size}`, () => png(size, size, (x, y) => ours(x, y, size).map((v) => encode(v / kPeak)))));
     comparisons.push({ a: 'lobelia', b: engine, record: `lobelia-${engine}.json`, png: `lobelia-${engine}.png`,

@@ -42,7 +42,7 @@ const parsed = (page, text) => page.evaluate((source) => {
     words: [...file.querySelectorAll('text')].map((t) => t.textContent), styled: file.querySelectorAll('[class], [style], style').length, paths: [...file.querySelectorAll('path')].map((p) => p.getAttribute('stroke')) };
 }, text);
 
-test('a difference is saved as a large picture with a colour bar, and as numbers', async () => {
+test('a difference is saved as a large picture with a colour bar, as numbers, and for LaTeX', async () => {
   const page = await cellPage('#a=lobelia&b=povray&mode=diff&z=fit');
   await page.getByRole('button', { name: 'Figure: what the viewer shows' }).click();
   await requireAccessible(page, 'the panel');
@@ -68,6 +68,10 @@ test('a difference is saved as a large picture with a colour bar, and as numbers
   const { width, pixels } = await decoded(page, png.bytes, [place(0.01), place(0.5), place(0.99)]);
   assert.ok(width >= 1000, `${width} pixels wide`);
   assert.ok(pixels[0][0] < 20 && Math.abs(pixels[1][0] - 128) < 8 && pixels[2][0] > 235, JSON.stringify(pixels));
+  const tex = (await saved(page, 'LaTeX')).bytes.toString();
+  assert.match(tex, /\\includegraphics\[width=\\linewidth\]\{phong-16-povray-difference\}/);
+  assert.match(tex, /\\label\{fig:phong-16-povray-difference\}/);
+  assert.equal(await page.getByRole('textbox', { name: 'Link' }).inputValue(), await page.evaluate(() => location.href));
   await close(page);
 });
 
@@ -102,8 +106,9 @@ test('a chart is saved as an SVG that needs no page, with its legend, and as its
   await close(page);
 });
 
-test('names are fit for files, and formulas for spreadsheets', () => {
-  const { csvText, fileName } = textOf;
+test('captions are escaped for LaTeX, names for files, and formulas for spreadsheets', () => {
+  const { csvText, fileName, latexText } = textOf;
+  assert.equal(latexText('50 % of $x_1 & {a}^b~#\\ 4.9 × 10⁻⁴ at θ'), '50 \\% of \\$x\\_1 \\& \\{a\\}\\textasciicircum{}b\\textasciitilde{}\\#\\textbackslash{} 4.9 $\\times$ 10$^{-4}$ at $\\theta$');
   assert.equal(fileName('phong_rdf-n128', '../POV Ray<', ''), 'phong_rdf-n128-POV-Ray');
   assert.equal(csvText([['=1+2', 'a"b,c'], [1e-9, NaN]]), "'=1+2,\"a\"\"b,c\"\n1e-9,nan\n");
 });

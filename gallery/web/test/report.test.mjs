@@ -62,7 +62,7 @@ test('lists all pairs, the worst first, each with its pictures and a sentence', 
   await close(page);
 });
 
-const opensPair = (from, address) => test(`a pair ${from} shows the values and the region that was judged`, async () => {
+const opensPair = (from, address) => test(`a pair ${from} shows the values, the region that was judged and a histogram`, async () => {
   const page = await open(browser, address);
   await ready(page);
   await says(page, 'h1', /^dim\.exr$/);
@@ -80,6 +80,8 @@ const opensPair = (from, address) => test(`a pair ${from} shows the values and t
   await says(page, '.pixel-values .sum', /Difference/);
   const [reference, mine] = await page.locator('.pixel-values tbody tr td:nth-child(2)').allTextContents();
   assert.ok(Math.abs(Number(mine) / Number(reference) - 0.9) < 2e-3, `${mine} of ${reference}`);
+  await page.locator('.histogram summary').click();
+  await page.waitForFunction(() => document.querySelectorAll('.histogram .series').length >= 2);
   await requireAccessible(page, 'a pair');
   await close(page);
 });

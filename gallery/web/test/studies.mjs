@@ -2,7 +2,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { lobelia } from './browser.mjs';
-import { made } from './farm.mjs';
+import { made, png } from './farm.mjs';
 
 function put(run, file, record) {
   mkdirSync(path.dirname(path.join(run, file)), { recursive: true });
@@ -16,6 +16,8 @@ const claim = (name, verdict) => ({ name, where: 'eq. (1)', statement: `it is so
   measured: [{ what: 'largest', value: 0.017, text: '1.70e-2', at: 'n = 16' }], definition: 'by a scan up to theta_cr, near 6/sqrt(n)', reason: 'as (1 - s)^n has it; see first' });
 const variant = (name, median, max) => ({ name, settings: {}, seconds: { median, spread: 0.05, least: median, most: median, rounds: 5 }, errors: { max } });
 
+const pictureOf = (name) => ({ exr: `${name}.exr`, png: `${name}.png`, error: `${name}-error.png`, largestErrorOfPeak: 0.01 });
+
 /** Returns the explorer's tables. `hostile` is a name in every record. */
 export function writeStudies(run, hostile) {
   mkdirSync(path.join(run, 'explorer'));
@@ -26,7 +28,10 @@ export function writeStudies(run, hostile) {
     byCase: [summary({ case: hostile }, 'inf')],
     byExponent: ['cosine', 'cs16'].flatMap((lobe) => [1, 100, 1e4].map((n) => summary({ lobe, exponent: n }, lobe === 'cs16' && n > 100 ? 'inf' : n * 1e-6))),
     curves: [curve(1e3), curve(1e6)],
+    pictures: [{ exponent: 1000, naive: pictureOf('naive'), ours: pictureOf('ours') }],
   }));
+  for (const [name, colour] of [['naive', 40], ['naive-error', 80], ['ours', 120], ['ours-error', 160]])
+    writeFileSync(path.join(run, `stability/${name}.png`), png(16, 16, () => [colour, colour, colour]));
   put(run, 'paper/paper.json', made('verify-paper', {
     command: ['lobelia', 'verify', 'paper'], confirmed: 1, notReproduced: 1, found: 1, claims: [claim('first', 'confirmed'), claim('second', 'not reproduced'), claim(hostile, 'found')],
     figures: [{ id: 'a"b', title: 'A figure', description: 'shown', x: { label: 'n', from: 16, to: 1024, logarithmic: true, ticks: [16, 1024] },

@@ -1,4 +1,4 @@
-// Explorer, stability, paper and cost: each opens, and keeps its state in the link.
+// Explorer, stability, paper and cost: each opens, keeps its state in the link, and can be used by keys.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
@@ -130,14 +130,20 @@ test('explorer: a link of nonsense shows something', async () => {
   await close(await view('explorer', `#n=nan&lobe=${encodeURIComponent(kHostile)}&model=__proto__&norm=constructor&scale=x`));
 });
 
-test('stability and paper: one chart a screen', async () => {
+test('stability and paper: one chart a screen, and each row of pictures is a figure', async () => {
   for (const name of ['stability', 'paper']) {
     const page = await view(name), lefts = await page.locator('.figure-grid .chart-figure:visible').evaluateAll((all) => all.map((e) => e.getBoundingClientRect().left));
     assert.ok(lefts.length >= 1 && new Set(lefts).size === 1, `${name}: ${lefts}`);
     await close(page);
   }
-  const page = await view('stability');
+  const page = await open(browser, `${server.url}stability.html`, { acceptDownloads: true });
   assert.equal(await page.locator('.charts .finding').count(), 2, 'each chart has its sentence');
+  await page.waitForFunction(() => [...document.querySelectorAll('.picture-four img')].every((i) => i.complete && i.naturalWidth > 0));
+  await page.getByRole('button', { name: 'Figure: Close to a highlight, n = 1000' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: 'SVG' }).click()]);
+  const text = readFileSync(await download.path(), 'utf8');
+  assert.match(text, /href="data:image\/png;base64,/);
+  for (const words of ['naive float32', 'error of ours: at most 0.01', '10⁻⁸']) assert.ok(text.includes(words), words);
   await close(page);
 });
 
@@ -159,15 +165,25 @@ test('paper: claims by verdict and words, and a link to one shows it', async () 
   await close(page);
 });
 
-test('cost: a variant under the pointer is marked in chart and table', async () => {
+test('cost: a variant is marked in chart and table, by pointer and by keys, and in the link', async () => {
   const page = await view('cost');
-  const marked = () => page.locator('tr.marked, g.marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
+  const marked = () => page.locator('tr.marked, .wide .marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
   await page.locator('tr[data-key=slow]').hover();
   assert.deepEqual(await marked(), ['TR slow', 'g slow']);
-  await page.locator('g.point[data-key=quick]').hover();
-  assert.deepEqual(await marked(), ['TR quick', 'g quick']);
+  await says(page, '.readout', /slow: 8\.00 ns, ± 5 %, largest error/);
   await page.mouse.move(0, 0);
   assert.deepEqual(await marked(), []);
+  await page.locator('.wide g.point[data-key=quick]').focus();
+  await page.keyboard.press('ArrowRight');
+  assert.deepEqual(await marked(), ['TR middling', 'g middling']);
+  await page.keyboard.press('Enter');
+  assert.deepEqual(await hashOf(page), { table: '0', variant: 'middling' });
+  const again = await open(browser, await address(page));
+  assert.deepEqual(await again.locator('tr.marked, .wide .marked').evaluateAll((all) => all.map((e) => e.dataset.key)), ['middling', 'middling']);
+  await close(again);
+  await page.keyboard.press('Enter');
+  assert.equal(new URL(await address(page)).hash, '#top');
+  assert.equal(await page.locator('.wide g.point[tabindex="0"]').count(), 1);
   await close(page);
 });
 
@@ -188,13 +204,30 @@ test('no page has a formula as it is typed, or a path of the machine that made t
 test('cost: is read on a phone, and its chart is a figure', async () => {
   const page = await view('cost', '', { viewport: { width: 390, height: 800 }, acceptDownloads: true });
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the screen');
-  const small = await page.locator('.chart-figure svg.chart').first().evaluate((chart) => Math.min(...[...chart.querySelectorAll('text')].map((t) => parseFloat(getComputedStyle(t).fontSize))) * chart.clientWidth / chart.viewBox.baseVal.width);
+  assert.equal(await page.locator('.wide svg.chart').first().isVisible(), false);
+  const small = await page.locator('.narrow svg.chart').first().evaluate((chart) => Math.min(...[...chart.querySelectorAll('text')].map((t) => parseFloat(getComputedStyle(t).fontSize))) * chart.clientWidth / chart.viewBox.baseVal.width);
   assert.ok(small > 10, `the smallest letters have ${small} pixels`);
-  await page.locator('.chart-figure .figure-button').first().click();
+  await page.locator('.narrow .figure-button').first().click();
   const [download] = await Promise.all([page.waitForEvent('download'), page.locator('dialog').getByRole('button', { name: /^CSV/ }).click()]);
   assert.equal(download.suggestedFilename(), 'cost-lobe-max.csv');
   const lines = readFileSync(await download.path(), 'utf8').trim().split('\n');
   assert.equal(lines.length, 5);
   assert.ok(lines.includes('quick,1,0.1'), lines.join('\n'));
+  await close(page);
+});
+
+test('search: the slider shows one exponent at a time, the whole range first', async () => {
+  const page = await view('search');
+  const shown = page.locator('figure[data-exponent]:visible');
+  assert.equal(await shown.count(), 1);
+  const first = await shown.getAttribute('data-exponent');
+  const slider = page.getByRole('slider');
+  await slider.focus();
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await shown.count(), 1);
+  assert.notEqual(await shown.getAttribute('data-exponent'), first);
+  await slider.press('Home');
+  assert.equal(await shown.getAttribute('data-exponent'), first);
+  assert.equal(await slider.getAttribute('aria-valuetext'), first);
   await close(page);
 });

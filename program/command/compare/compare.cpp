@@ -27,6 +27,7 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   for (const auto& [given, name] :
        {std::pair(job.pictures.given.size() > 1, "B"),
         {!options.html.path.empty(), "--html"},
+        {!job.c.empty(), "--reference-floor"},
         {job.comparison.noise.has_value(), "the noise of a picture"},
         {!options.difference.path.empty(), "--diff-image"},
         {options.accept, "--accept"},

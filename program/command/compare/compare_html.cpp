@@ -219,8 +219,9 @@ class ReportWriter {
     const PicturePair read = read_compared(pair, job, options);
     const double stops = comparison.viewing.exposure_stops;
     if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
-    add_image(kReferenceSet, pair.b, read.b, reading_facts(pair.sources->b), stops, made);
-    add_image(pair.set, pair.a, read.a, reading_facts(pair.sources->a), stops, made);
+    const auto [reading_a, reading_b] = reading_of(pair);
+    add_image(kReferenceSet, pair.b, read.b, reading_b, stops, made);
+    add_image(pair.set, pair.a, read.a, reading_a, stops, made);
     gallery::CheckedComparison checked;
     checked.record = pair_record(pair);
     checked.verdict = verdict_name(pair.verdict());

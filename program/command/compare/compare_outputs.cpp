@@ -33,6 +33,7 @@ void add_inputs(const CompareArguments& options, const Pairing& pairing, OutputF
     }
     for (const fs::path& file : job.noise.files(pairing.is_by_name ? row.name : ""))
       outputs.reads(file);
+    if (!job.c.empty()) outputs.reads(file_of(job.c, pairing.is_by_name ? row.name : ""));
   }
 }
 
@@ -42,6 +43,7 @@ void require_outside(std::string_view option, const fs::path& directory, const C
   std::vector<fs::path> folders = job.noise.files("");
   for (const auto* given : {&job.pictures.given, &job.pictures.also_accepted})
     folders.insert(folders.end(), given->begin(), given->end());
+  if (!job.c.empty()) folders.emplace_back(job.c);
   for (const fs::path& folder : folders)
     if (!folder.empty() && is_below(real, real_path(folder)))
       throw Error(ExitCode::kUsage,

@@ -57,13 +57,14 @@ void print_layers(const OtherLayers& layers, const std::string& a, const std::st
 }
 
 void print_reading(const PairReport& pair) {
-  for (const auto& [name, source] : {std::pair('a', &pair.sources->a), {'b', &pair.sources->b}})
-    for (const auto& [what, words] : reading_facts(*source))
-      fmt::print("  {}: {}: {}\n", name, what, words);
+  const auto [a, b] = reading_of(pair);
+  for (const auto& [name, facts] : {std::pair('a', &a), {'b', &b}})
+    for (const auto& [what, words] : *facts) fmt::print("  {}: {}: {}\n", name, what, words);
 }
 
-void print_names(const std::string& a, const std::string& b) {
+void print_names(const std::string& a, const std::string& b, const std::string& c) {
   fmt::print("a  {}\nb  {}  (the reference)\n", printable_path(a), printable_path(b));
+  if (!c.empty()) fmt::print("c  {}  (the second reference)\n", printable_path(c));
 }
 
 /// "± 0.0012  "; blank for a figure without an error bar, "" where no noise is known.
@@ -112,16 +113,25 @@ void print_parts(const Comparison& comparison) {
     print("the mask is", comparison.mask_of, *comparison.mask_pixels);
 }
 
+/// A column of the table of metrics: values by the id that a metric has in it.
+struct Column {
+  const char* title;
+  const records::Named<double>* values;
+  Region region;
+};
+
 void print_metric_lines(const Comparison& comparison) {
-  std::vector<std::pair<const char*, Region>> columns{{"A and B", Region::kWhole}};
+  const auto& floor = comparison.reference_floor;
+  std::vector<Column> columns{{"A and B", &comparison.metrics, Region::kWhole}};
+  if (floor) columns.push_back({"C and B", &floor->metrics, Region::kWhole});
   if (comparison.highlight_pixels.value_or(0) > 0)
-    columns.emplace_back("highlight", Region::kHighlight);
+    columns.push_back({"highlight", &comparison.metrics, Region::kHighlight});
   if (comparison.mask_pixels) {
-    columns.emplace_back("in the mask", Region::kMask);
-    columns.emplace_back("outside", Region::kOutside);
+    columns.push_back({"in the mask", &comparison.metrics, Region::kMask});
+    columns.push_back({"outside", &comparison.metrics, Region::kOutside});
   }
   fmt::print("  {:<20}", "");
-  for (const auto& [title, region] : columns) fmt::print("{:>13}", title);
+  for (const Column& column : columns) fmt::print("{:>13}", column.title);
   fmt::print("\n");
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
@@ -129,9 +139,9 @@ void print_metric_lines(const Comparison& comparison) {
       const std::string id(output.id);
       std::string cells;
       bool any = false;
-      for (const auto& [title, region] : columns) {
+      for (const Column& column : columns) {
         const double* value =
-            records::find(comparison.metrics, id_in_region(*metric, output, region));
+            records::find(*column.values, id_in_region(*metric, output, column.region));
         any = any || (value && !std::isnan(*value));
         cells += fmt::format("{:>13}", value ? fmt::format("{:.6g}", *value) : "");
       }
@@ -182,7 +192,7 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
                why_not_pass(pair));
     return;
   }
-  print_names(pair.a, pair.b);
+  print_names(pair.a, pair.b, pair.c);
   if (const auto& display = comparison.viewing.display)
     fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
                printable(display->choice().display), printable_path(display->choice().config));
@@ -212,6 +222,8 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
     if (limit.more_samples && std::isfinite(*limit.more_samples))
       fmt::print("  about {:.3g} times the samples would tell about {}\n", *limit.more_samples,
                  limit.metric);
+  for (const std::string& sentence : comparison.disagreement)
+    fmt::print("  metrics disagree: {}\n", sentence);
   for (const std::string& sentence : comparison.blind_limits)
     fmt::print("  warning: {}\n", sentence);
   if (pair.layers) print_layers(*pair.layers, pair.a, pair.b);
@@ -236,7 +248,7 @@ void print_set(const SetReport& report, const PrintChoice& choice) {
       if (one.weight != Problem::Weight::kNotice) line(one.what, one.weight, one.name, one.why);
     return;
   }
-  print_names(report.a, report.b);
+  print_names(report.a, report.b, report.c);
   fmt::print("\n");
   for (const Problem& one : found) line(one.what, one.weight, one.name, one.why);
   if (choice.verbose)

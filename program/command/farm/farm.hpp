@@ -29,9 +29,9 @@ class SlurmSettings {
 SlurmFarmSummary follow(SlurmRunOptions options,
                         const std::function<SlurmFarmSummary(const SlurmRunOptions&)>& run);
 
-/// The hidden exec-chunk and finish, which the elements of a run call.
+/// doctor, and the hidden exec-chunk, finish and doctor-on-node, which the elements of a run call.
 void add_farm_slurm(CLI::App& farm, ExitCode& exit_code);
-/// status, verify, gc, clean and doctor.
+/// status, verify, gc, clean and explain.
 void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code);
 
 /// The user's leave, by --allow-commands. Without that, warns once of doubtful folders that give it.

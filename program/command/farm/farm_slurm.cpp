@@ -1,5 +1,8 @@
 #include "base/system/files.hpp"
+#include "base/system/host.hpp"
+#include "base/system/removal.hpp"
 #include "base/words/text.hpp"
+#include "farm/slurm/doctor.hpp"
 #include "program/command/farm/farm.hpp"
 #include "program/command/gallery/publish.hpp"
 #include "program/command/messages.hpp"
@@ -66,6 +69,40 @@ SlurmFarmSummary follow(SlurmRunOptions options,
 
 namespace {
 
+void add_doctor(CLI::App& farm, ExitCode& exit_code) {
+  struct Options {
+    DoctorOptions doctor;
+    bool clean = false;
+  };
+  auto options = std::make_shared<Options>();
+  DoctorOptions& settings = options->doctor;
+  auto* command = farm.add_subcommand(
+      "doctor", "Check this machine, and with DIR a Slurm cluster, before the first grid");
+  command->add_option("DIR", settings.directory,
+                      "Where a cluster's farms are to go: on a file system that the nodes share");
+  command->add_flag("--clean", options->clean,
+                    "First remove temporary directories that killed programs of this user left");
+  command->add_option("--partition", settings.slurm.partition, "As sbatch has it");
+  command->add_option("--account", settings.slurm.account, "");
+  command->add_option("--qos", settings.slurm.qos, "");
+  command->footer(
+      "What this machine lacks to contain engines is a warning.\n\n"
+      "Exit codes: 0 a grid would run, 1 it would not.");
+  command->callback([options, &exit_code] {
+    if (options->clean) {
+      const auto removed = remove_dead_temporaries(place_for_temporaries());
+      for (const auto& path : removed) fmt::print("removed {}\n", printable_path(path.string()));
+      fmt::print("{} temporary directories of killed programs removed\n", removed.size());
+    }
+    options->doctor.program = program_file();
+    fmt::print("{}", doctor_text(look_at_machine()));
+    if (options->doctor.directory.empty()) return;
+    const auto checks = doctor(options->doctor);
+    fmt::print("{}", doctor_text(checks));
+    if (worst_of(checks) == DoctorCheck::Verdict::kFailed) exit_code = ExitCode::kDiffers;
+  });
+}
+
 /// Adds a subcommand for the program itself, which the help does not list, and its required `path`.
 CLI::App* add_hidden(CLI::App& farm, const std::string& name, const std::string& meaning,
                      const std::string& path, std::filesystem::path& value,
@@ -106,6 +143,7 @@ void finish_run(const std::filesystem::path& run, const Sha256Digest& planned, c
 }  // namespace
 
 void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
+  add_doctor(farm, exit_code);
   auto path = std::make_shared<std::filesystem::path>();
   auto number = std::make_shared<std::size_t>(0);
   auto allowed = std::make_shared<bool>(false);
@@ -125,6 +163,9 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
     command->add_option("--sha256", *sha256, "Of what the job was submitted to do")->required();
     command->add_flag("--allow-commands", *allowed, "Do what the run's records say");
   }
+  add_hidden(farm, "doctor-on-node", "What the doctor's element does", "DIR", *path,
+             "Made by the doctor")
+      ->callback([path] { doctor_on_node(*path); });
 }
 
 }  // namespace lobelia::cli

@@ -1,8 +1,7 @@
+#include <algorithm>
+
 #include "base/records/record.hpp"
-#include "base/system/files.hpp"
-#include "base/system/removal.hpp"
 #include "base/words/numbers.hpp"
-#include "farm/doctor.hpp"
 #include "farm/upkeep.hpp"
 #include "program/command/common_options.hpp"
 #include "program/command/farm/farm.hpp"
@@ -15,7 +14,8 @@ namespace lobelia::cli {
 namespace {
 
 struct UpkeepArguments {
-  std::string directory, max_size, json;
+  std::string directory, cell, job, max_size, json;
+  EnginePrograms programs;
   bool attach = false, allow_commands = false, remove = false, all = false, dry_run = false;
 };
 
@@ -194,19 +194,57 @@ void add_farm_clean(CLI::App& farm) {
   });
 }
 
-void add_farm_doctor(CLI::App& farm) {
-  auto clean = std::make_shared<bool>(false);
-  auto* command = farm.add_subcommand("doctor", "Check this machine before the first grid");
-  command->add_flag("--clean", *clean,
-                    "First remove temporary directories that killed programs of this user left");
-  command->footer("What this machine lacks to contain engines is a warning.");
-  command->callback([clean] {
-    if (*clean) {
-      const auto removed = remove_dead_temporaries(place_for_temporaries());
-      for (const auto& path : removed) fmt::print("removed {}\n", printable_path(path.string()));
-      fmt::print("{} temporary directories of killed programs removed\n", removed.size());
+/// The beginning of a hash; any other text whole.
+std::string brief(const std::string& value) {
+  constexpr std::size_t kHash = 64, kShown = 12;
+  const bool is_hash =
+      value.size() == kHash && value.find_first_not_of("0123456789abcdef") == std::string::npos;
+  return is_hash ? value.substr(0, kShown) + "..." : printable(value, 400);
+}
+
+void print_part(const records::ExplainedPart& part) {
+  if (part.same)
+    fmt::print("  {}: {}\n", part.part, brief(part.was));
+  else
+    fmt::print("  {}: CHANGED: {}, was {}\n", part.part, brief(part.now), brief(part.was));
+  for (const auto& file : part.files) fmt::print("    {}\n", printable(file, 400));
+}
+
+void print_job(const records::ExplainedJob& job) {
+  fmt::print("{}: {}\n", printable(job.job),
+             job.in_cache ? "in the cache" : "not in the cache: " + printable(job.why, 400));
+  fmt::print("  key: {}\n", brief(job.key));
+  for (const auto& part : job.parts) print_part(part);
+}
+
+bool is_unchanged(const records::ExplainedJob& job) {
+  return job.in_cache && std::ranges::all_of(job.parts, &records::ExplainedPart::same);
+}
+
+void add_farm_explain(CLI::App& farm, ExitCode& exit_code) {
+  const auto [command, options] =
+      add_upkeep(farm, "explain",
+                 "What the key of each result of a cell was made of, and what has changed since");
+  command->add_option("CELL", options->cell, "The cell's id, as in DIR/cells")->required();
+  command->add_option("JOB", options->job, "One of its jobs: render, reference-povray, profile...");
+  options->programs.add_to(*command);
+  OptionGroup group(*command);
+  add_json(group, options->json, "farm-explanation");
+  command->footer(
+      "Hashes are shown by their beginning; --json has all of them. Exit codes: 0 all results are in the\n"
+      "cache, and nothing has changed on this machine, 1 something has, 3 no such farm, cell or job.\n\n"
+      "Example: lobelia farm explain out/gallery phong_rdf-n16 reference-povray");
+  command->callback([options = options, &exit_code] {
+    OutputFiles().writes_report(options->json);
+    const records::FarmExplanation explanation =
+        explain_cell(options->directory, options->cell, options->job, options->programs.given());
+    write_reports("", {{options->json, record_text(explanation)}});
+    if (options->json != kStdout) {
+      for (const auto& job : explanation.jobs) print_job(job);
+      for (const auto& text : explanation.without)
+        fmt::print("no result: {}\n", printable(text, 2000));
     }
-    fmt::print("{}", doctor_text());
+    if (!std::ranges::all_of(explanation.jobs, is_unchanged)) exit_code = ExitCode::kDiffers;
   });
 }
 
@@ -217,7 +255,7 @@ void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code) {
   add_farm_verify(farm, exit_code);
   add_farm_gc(farm);
   add_farm_clean(farm);
-  add_farm_doctor(farm);
+  add_farm_explain(farm, exit_code);
 }
 
 }  // namespace lobelia::cli

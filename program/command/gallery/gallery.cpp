@@ -32,8 +32,12 @@ void add_site_options(CLI::App& command, OptionGroup& group,
       "--metrics-only", options->metrics_only,
       "No float pictures and no maps: numbers, curves and small pictures. The cells then take about a quarter of "
       "the space, and with --packed less than a fiftieth");
-  group.add("--baseline", options->baseline, "DIR",
-            "An earlier run: shows what is better, worse, new and gone since then");
+  group
+      .add(
+          "--baseline", options->baselines, "DIR",
+          "An earlier run: shows what is better, worse, new and gone since then. May be repeated, the oldest "
+          "first: the last is compared, and all are points of each cell's timeline")
+      ->allow_extra_args(false);  // RUN may come after it
   command.add_flag_function(
       "--packed,!--no-packed", [options](std::int64_t count) { options->packed = count > 0; },
       fmt::format(
@@ -115,7 +119,7 @@ void add_gallery(CLI::App& app, ExitCode& exit_code) {
       "Examples:\n"
       "  lobelia farm sphere_grid.xml -o run\n"
       "  lobelia gallery run -o site\n"
-      "  lobelia gallery run -o site --baseline yesterday");
+      "  lobelia gallery run -o site --baseline last_week --baseline yesterday");
   auto limits = std::make_shared<WorkLimits>();
   limits->add_to(group);
   add_publish(*command, exit_code);

@@ -138,7 +138,8 @@ def _rows(values: Dict[str, Any]) -> List[Dict[str, Any]]:
                 "variant": variant["name"],
                 **variant.get("settings", {}),
                 **{f"error.{name}": float(e) for name, e in variant.get("errors", {}).items()},
-                "seconds": variant["seconds"]["median"],
+                "seconds": variant.get("seconds", {}).get("median"),
+                "count": variant.get("count"),
             }
             for table in values["tables"]
             for variant in table["ways"]

@@ -285,7 +285,7 @@ std::string Outside::key_of_picture(const Film& film, const AxisValues& axes,
   }
   PictureKey key;
   try {
-    key.sha256 = FileHashes::of_user().hash(open_picture(film, axes), time_limit);
+    key.sha256 = FileHashes::of_user().hash(open_picture(film, axes), time_limit).sha256;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput || error.is_fault()) throw;
     key.why_not = error.what();

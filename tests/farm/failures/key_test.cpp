@@ -25,6 +25,14 @@ class Key : public FailingFarm {
   Json results(const std::string& cell) const {
     return read_json(out() / "cells" / cell / "cell.json").at("results");
   }
+  FarmRun explain(const std::vector<std::string>& more,
+                  const std::vector<std::string>& environment = {}) const {
+    std::vector<std::string> arguments{"farm", "explain", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    if (fs::exists(root() / "povray"))
+      arguments.insert(arguments.end(), {"--povray", (root() / "povray").string()});
+    return run_command(arguments, environment);
+  }
   /// Appending `more` to the engine's file makes another engine of it; undoing it gives the first one again.
   void expect_another_engine(const fs::path& file, const std::string& more) {
     const std::string before = read_file(file, 1 << 28);
@@ -39,8 +47,15 @@ class Key : public FailingFarm {
     for (const char* job : {"reference-povray", "compare-povray", "profile"})
       EXPECT_NE(results("n16").at(job), keys.at(job)) << job;
     EXPECT_EQ(results("n16").at("render"), keys.at("render"));
+    const FarmRun told = explain({"n16", "reference-povray"});
+    EXPECT_EQ(told.exit_code, 0) << told.output;
     write_file(file, before);
     fs::permissions(file, fs::perms::owner_all);
+    const FarmRun changed_back = explain({"n16", "reference-povray"});
+    EXPECT_EQ(changed_back.exit_code, 1);
+    EXPECT_THAT(changed_back.output, HasSubstr("POV-Ray: version: 3.7.0.10\n"));
+    EXPECT_THAT(changed_back.output, HasSubstr("POV-Ray: content: CHANGED"));
+    EXPECT_THAT(changed_back.output, HasSubstr("    " + file.string() + " changed\n"));
     EXPECT_EQ(run().rendered, 0u);
     EXPECT_EQ(results("n16"), keys);
   }
@@ -78,6 +93,10 @@ TEST_F(Key, HasHowTheCLibraryCalculates) {
   const Json keys = results("n16");
   EXPECT_THAT(run_command(command({"--dry-run"}), {kWithoutFma}).output,
               HasSubstr("n16/profile: arithmetic differs\n"));
+  const FarmRun told = explain({"n16", "profile"}, {kWithoutFma});
+  EXPECT_EQ(told.exit_code, 1);
+  EXPECT_THAT(told.output, HasSubstr("arithmetic: libm: CHANGED"));
+  EXPECT_THAT(told.output, Not(HasSubstr("program: CHANGED")));
   const FarmRun other = run_command(command(), {kWithoutFma});
   EXPECT_EQ(other.rendered, 8u) << other.output;
   for (const auto& [job, key] : keys.items()) EXPECT_NE(results("n16").at(job), key) << job;
@@ -138,6 +157,58 @@ TEST_F(Key, HasEveryVariableThatChangesAResult) {
     }
     EXPECT_EQ(keys_of(other) == keys_of(plain), variable != kWithoutFma || !has_fma()) << variable;
   }
+}
+
+TEST_F(Key, IsExplainedAsARecordToo) {
+  fake_povray();
+  ASSERT_EQ(run().exit_code, 0);
+  const Json told = Json::parse(explain({"n16", "--json", "-"}).output);
+  EXPECT_EQ(told.at("kind"), "farm-explanation");
+  ASSERT_EQ(told.at("jobs").size(), 4u);
+  for (const Json& job : told.at("jobs")) {
+    EXPECT_EQ(job.at("inCache"), true);
+    EXPECT_EQ(job.at("key"), results("n16").at(job.at("job").get<std::string>()));
+    EXPECT_GE(job.at("parts").size(), 6u);
+    for (const Json& part : job.at("parts")) EXPECT_EQ(part.at("same"), true) << part;
+  }
+  fs::remove_all(cache() / "results");
+  const FarmRun lost = explain({"n16"});
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_THAT(lost.output, HasSubstr("render: not in the cache: missing"));
+  fs::remove_all(cache());
+  EXPECT_THAT(explain({"n16"}).output,
+              HasSubstr("render: not in the cache: the cache is not there"));
+  EXPECT_FALSE(fs::exists(cache())) << "explaining makes nothing";
+}
+
+TEST_F(Key, IsNotExplainedForACellOutsideTheFarm) {
+  fake_povray();
+  ASSERT_EQ(run().exit_code, 0);
+  fs::create_directory_symlink("n16", out() / "cells" / "link");
+  fs::create_directory(root() / "outside");
+  fs::copy_file(out() / "cells" / "n16" / "cell.json", root() / "outside" / "cell.json");
+  for (const char* cell :
+       {"..", ".", "", "../../outside", "n16/../n16", "/etc", "link", "no such", "\n\x1b[31m"}) {
+    const FarmRun told = explain({cell});
+    EXPECT_EQ(told.exit_code, 3) << cell << told.output;
+    EXPECT_THAT(told.output, HasSubstr("no cell '"));
+    EXPECT_THAT(told.output, Not(HasSubstr("\x1b")));
+  }
+  EXPECT_EQ(explain({"n16", "no-job"}).exit_code, 3);
+  const fs::path file = out() / "cells" / "n16" / "cell.json";
+  Json record = read_json(file);
+  for (const char* key : {"results", "madeFrom", "problems", "status"}) {
+    Json other = record;
+    other[key] = Json::array({1, "../../x"});
+    write_json(file, other);
+    EXPECT_THAT(explain({"n16"}).exit_code, testing::AnyOf(0, 3)) << key;
+    other.erase(key);
+    write_json(file, other);
+    EXPECT_EQ(explain({"n16"}).exit_code, 3) << key;
+  }
+  record["results"]["render"] = "../../../outside";
+  write_json(file, record);
+  EXPECT_EQ(explain({"n16"}).exit_code, 3);
 }
 
 }  // namespace

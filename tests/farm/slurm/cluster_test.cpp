@@ -1,5 +1,6 @@
 // Runs on a real Slurm of this machine: what it says and does itself. farm_cluster_test.cpp has its faults.
 #include "farm/chunk.hpp"
+#include "farm/slurm/doctor.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/farm/slurm/toy_work.hpp"
 #include "tests/test.hpp"
@@ -25,6 +26,18 @@ class SlurmCluster : public testing::Test {
   std::string said;
   SlurmRunOptions options = quick(said);
 };
+
+TEST_F(SlurmCluster, IsFoundFitByTheDoctor) {
+  DoctorOptions checked;
+  checked.directory = directory.path();
+  checked.program = LOBELIA_DOCTOR_NODE;
+  checked.poll = std::chrono::milliseconds(100);
+  const auto checks = doctor(checked);
+  EXPECT_EQ(checks.size(), 12u);
+  for (const auto& check : checks)  // KillWait is short here
+    EXPECT_TRUE(check.verdict == DoctorCheck::Verdict::kOk || check.name == "KillWait")
+        << doctor_text(checks);
+}
 
 TEST_F(SlurmCluster, IsReportedAndNotWaitedForWhenDrained) {
   ToyWork toy(directory.path(), 4, 0.1);

@@ -32,7 +32,7 @@ TEST_F(FakeSlurm, IsLeftAfterItsTimeLimitIfItHangs) {
   EXPECT_TRUE(submission.unclear);
   for (const std::string& why :
        {submission.why, client.elements(1, "x").why, client.living_jobs("x").why,
-        client.cancel("x"), client.config().why, client.node_list("").why})
+        client.cancel("x"), client.ping(), client.config().why, client.node_list("").why})
     EXPECT_THAT(why, HasSubstr("gave no answer in 0.3 s"));
 }
 

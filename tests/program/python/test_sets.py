@@ -87,8 +87,8 @@ def test_what_makes_no_set_is_an_error(folders, image):
         lobelia.compare(image, "references")
     with pytest.raises(lobelia.InputError, match="is a folder|is not a folder"):
         lobelia.compare("mine/same.exr", "references")
-    with pytest.raises(lobelia.UsageError, match="a picture of noise needs"):
-        lobelia.compare(".", pattern="{x}/{name}", sets="x=mine,references", a_error="mine")
+    with pytest.raises(lobelia.UsageError, match="--reference-floor needs"):
+        lobelia.compare(".", pattern="{x}/{name}", sets="x=mine,references", reference_floor="mine")
     with pytest.raises(lobelia.InputError, match="nowhere.ocio"):
         lobelia.compare(image, image, ocio="nowhere.ocio")
 

@@ -12,7 +12,9 @@ import { Flipper } from './flipper';
 import { FloatPainter } from './float_painter';
 import { FloatPictures } from './float_pictures';
 import { legendOf } from './legend';
+import { Histogram } from './histogram';
 import { LineBox } from './line_box';
+import { MapHistogram } from './map_histogram';
 import { DifferenceMaps } from './maps';
 import { overlayOf } from './overlay';
 import type { Content, Painter, Pane } from './painter';
@@ -39,6 +41,8 @@ export class Viewer implements Controls {
   private readonly pick: { a: ReturnType<typeof select>; b: ReturnType<typeof select> };
   private readonly measure: ReturnType<typeof select>;
   private readonly lineBox = new LineBox();
+  private readonly histogram = new Histogram(() => this.schedule());
+  private readonly mapHistogram = new MapHistogram();
   private readonly outline = new RegionOutline(() => this.schedule());
   private readonly region = h('input', { type: 'checkbox', id: 'region' });
   private readonly lineButton: HTMLButtonElement;
@@ -113,9 +117,9 @@ export class Viewer implements Controls {
             button('Row', () => this.lineThrough(true), { title: 'The row of the cursor' }),
             button('Column', () => this.lineThrough(false), { title: 'The column of the cursor' }),
             button('None', () => this.change({ line: '' }), { title: 'No line' })),
-          this.values.element,
+          this.values.element, this.mapHistogram.element,
           keysHelp(this.choice.oldAgainstNew().length > 0))),
-      this.lineBox.element);
+      this.lineBox.element, this.histogram.element);
 
     this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
     listenToPointer(this);
@@ -272,6 +276,8 @@ export class Viewer implements Controls {
     this.overlay.replaceChildren(...overlayOf(this.choice, panes, view, this.state.cursorNow(a, b),
       (transform) => (region ? this.outline.drawn(region, transform) : [])));
     this.lineBox.show(this.state, a, b);
+    this.histogram.show(this.state, a, b);
+    this.mapHistogram.show(this.state, a, b);
   }
 
   private showTags(mode: string, a: number, b: number, isFlipped: boolean): void {

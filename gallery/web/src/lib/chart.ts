@@ -30,6 +30,10 @@ interface ChartContent {
   readonly bands?: readonly ChartBand[];
   /** A value with a line of its own, such as 1 of a ratio. */
   readonly level?: number | undefined;
+  /** Each point is a bar, from the middle to the next ones. */
+  readonly bars?: boolean;
+  /** Places on the x axis with a name each. */
+  readonly marks?: readonly { readonly at: number; readonly name: string }[];
 }
 
 let charts = 0;
@@ -180,12 +184,28 @@ export class Chart {
     const inside = svg('g', { 'clip-path': `url(#${this.clip})` });
     parts.push(svg('clipPath', { id: this.clip }, svg('rect', { x: kLeft, y: kTop - 3, width: right - kLeft + 3, height: bottom - kTop + 6 })), inside);
     for (const s of this.visible()) inside.append(svg('path', { ...lineLook(s.style, 1.8), fill: 'none', d: this.path(s) }));
-    this.drawing.replaceChildren(...parts, this.rule);
+    this.drawing.replaceChildren(...parts, ...this.marks(), this.rule);
     this.show(this.at);
   }
 
+  private barPath(s: Series): string {
+    const bottom = this.height - kBottom, half = s.x.length > 1 ? (s.x[1]! - s.x[0]!) / 2 : 0;
+    return s.x.map((value, i) => `${i === 0 ? `M${this.across(value - half).toFixed(1)} ${bottom}` : ''}V${this.down(s.y[i]!).toFixed(1)}H${this.across(value + half).toFixed(1)}`).join('') + `V${bottom}`;
+  }
+
+  /** Each name has a line of its own, since the places may be close together. */
+  private marks(): SVGElement[] {
+    const middle = (kLeft + this.width - kRight) / 2;
+    return (this.content?.marks ?? []).flatMap(({ at, name }, i) => {
+      const across = this.across(at), down = kTop + 12 * i + 8, isRight = across > middle;
+      return [svg('line', { class: 'tick', x1: across, x2: across, y1: down - 8, y2: this.height - kBottom, 'stroke-dasharray': '2 3' }),
+        svg('text', { class: 'band-label', x: across + (isRight ? -4 : 4), y: down, 'text-anchor': isRight ? 'end' : 'start' }, name)];
+    });
+  }
+
   private path(s: Series): string {
-    const { x, y } = this.content!;
+    const { x, y, bars } = this.content!;
+    if (bars) return this.barPath(s);
     let path = '', pen = false;
     s.x.forEach((value, i) => {
       const height = s.y[i]!;

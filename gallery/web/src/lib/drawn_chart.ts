@@ -3,10 +3,14 @@ import { h } from './dom';
 import { figureButton, type FigureSource } from './figure';
 import { fileName } from './figure_text';
 
+export function drawnChartButton(chart: SVGSVGElement): HTMLElement {
+  return figureButton(chart.querySelector('title')?.textContent ?? 'the chart', () => figureOf(chart));
+}
+
 /** Below each chart of the page. */
 export function addDrawnChartButtons(main: HTMLElement): void {
   for (const chart of main.querySelectorAll<SVGSVGElement>('figure > svg.chart'))
-    chart.after(h('div', { class: 'chart-foot' }, figureButton(chart.querySelector('title')?.textContent ?? 'the chart', () => figureOf(chart))));
+    chart.after(h('div', { class: 'chart-foot' }, drawnChartButton(chart)));
 }
 
 function figureOf(chart: SVGSVGElement): FigureSource {

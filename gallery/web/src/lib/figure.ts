@@ -1,7 +1,7 @@
-// The button "Figure": what is shown as PNG, SVG or CSV. All of it is made on the page.
+// The button "Figure": what is shown as PNG, SVG, CSV or LaTeX, and its link. All of it is made on the page.
 import { button, h } from './dom';
 import { chartFigure, kLeastWidth, pictureFigure, svgText, type LegendEntry, type PictureParts } from './figure_svg';
-import { csvText } from './figure_text';
+import { csvText, latexFigure } from './figure_text';
 
 export interface FigureSource {
   /** Of its files, without an ending. */
@@ -58,7 +58,7 @@ async function overlayOf(drawing: SVGSVGElement): Promise<HTMLImageElement> {
 
 /** `get` is asked each time that the button is pressed; it throws with a sentence if there is no figure. */
 export function figureButton(what: string, get: () => FigureSource): HTMLButtonElement {
-  const control = button('Figure', () => openPanel(what, get), { class: 'figure-button', 'aria-haspopup': 'dialog', 'aria-label': `Figure: ${what}`, title: 'Save what is shown' });
+  const control = button('Figure', () => openPanel(what, get), { class: 'figure-button', 'aria-haspopup': 'dialog', 'aria-label': `Figure: ${what}`, title: 'Save or cite what is shown' });
   return control;
 }
 
@@ -81,13 +81,19 @@ function openPanel(what: string, get: () => FigureSource): void {
     }
   };
   const act = (label: string, run: () => void | Promise<void>, done: string): HTMLElement => button(label, () => void attempt(run, done)());
+  const copy = (text: string, field: HTMLInputElement | HTMLTextAreaElement, named: string): HTMLElement =>
+    act('Copy', () => (navigator.clipboard ? navigator.clipboard.writeText(text) : field.select()), navigator.clipboard ? `The ${named} is copied.` : 'Copy the marked text.');
+  const labelled = (element: HTMLElement, name: string): HTMLElement => { element.setAttribute('aria-label', name); return element; };
   try {
-    const source = get(), { name, csv } = source;
+    const source = get(), { name, csv } = source, latex = latexFigure(name, source.caption);
+    const link = h('input', { readonly: true, 'aria-label': 'Link', value: location.href }), tex = h('textarea', { readonly: true, rows: 7, spellcheck: 'false', 'aria-label': 'LaTeX' }, latex);
     panel.append(h('h2', {}, source.title), h('p', { class: 'figure-caption' }, source.caption),
       h('div', { class: 'controls' },
         act('PNG', async () => saveFile(name + '.png', await pngOf(source)), `${name}.png is saved.`),
         act('SVG', () => saveFile(name + '.svg', new Blob([svgOf(source)], { type: 'image/svg+xml' })), `${name}.svg is saved.`),
-        csv && act(`CSV: ${csv.what}`, () => saveFile(name + '.csv', new Blob([csvText(csv.rows())], { type: 'text/csv' })), `${name}.csv is saved.`)));
+        csv && act(`CSV: ${csv.what}`, () => saveFile(name + '.csv', new Blob([csvText(csv.rows())], { type: 'text/csv' })), `${name}.csv is saved.`),
+        act('LaTeX', () => saveFile(name + '.tex', new Blob([latex], { type: 'text/x-tex' })), `${name}.tex is saved.`)),
+      h('div', { class: 'figure-copy' }, tex, labelled(copy(latex, tex, 'LaTeX'), 'Copy the LaTeX'), link, labelled(copy(location.href, link, 'link'), 'Copy the link')));
   } catch (error) {
     panel.append(h('p', {}, error instanceof Error ? error.message : String(error)));
   }

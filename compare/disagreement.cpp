@@ -1,4 +1,4 @@
-#include "compare/blind_limits.hpp"
+#include "compare/disagreement.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,18 @@
 
 namespace lobelia {
 namespace {
+
+/// part / whole; 0 if both are 0, infinite if only the whole is.
+double share(double part, double whole) {
+  if (part == 0) return 0;
+  return whole == 0 ? kInfinity : part / whole;
+}
+
+/// "takes up 3.1 times its limit (0.031, limit 0.01)"
+std::string words(const LimitResult& limit, double share) {
+  return fmt::format("{} takes up {:.3g} of its limit ({:.4g}, limit {:g})", limit.metric, share,
+                     limit.value, limit.limit);
+}
 
 /// The share of the pixels that a percentile leaves out: 0.05 of "ciede2000.p95". NaN for what is none.
 double share_left_out(std::string_view id) {
@@ -49,6 +61,37 @@ std::vector<std::string> blind_limits(std::span<const LimitResult> limits, doubl
           "hardly sees it",
           id, 100 * highlight_share));
   }
+  return sentences;
+}
+
+double share_of_limit(const MetricOutput& output, double value, double limit) {
+  if (output.better != Better::kHigher) return share(std::abs(value), limit);
+  if (std::isinf(output.best)) return std::pow(10, (limit - value) / 20);
+  return share(output.best - value, output.best - limit);
+}
+
+std::vector<std::string> disagreements(std::span<const LimitResult> limits) {
+  std::vector<std::string> sentences;
+  for (const LimitResult& failing : limits)
+    for (const LimitResult& passing : limits) {
+      if (failing.pass || !passing.pass || std::isnan(failing.value) ||
+          failing.standing == Standing::kOpen)
+        continue;
+      const Metric &fails = *find_metric(failing.metric), &passes = *find_metric(passing.metric);
+      // How wide a highlight is says nothing of its brightness.
+      const auto is_figure = [](const Metric& metric) {
+        return metric.needs == Needs::kHighlight || metric.needs == Needs::kHighlights;
+      };
+      if (fails.family == passes.family || fails.region != passes.region || is_figure(fails) ||
+          is_figure(passes))
+        continue;
+      const double over =
+          share_of_limit(*find_metric_output(failing.metric), failing.value, failing.limit);
+      const double under =
+          share_of_limit(*find_metric_output(passing.metric), passing.value, passing.limit);
+      if (over > kWideMargin || under < 1 / kWideMargin)
+        sentences.push_back(fmt::format("{}, but {}", words(failing, over), words(passing, under)));
+    }
   return sentences;
 }
 
