@@ -5,7 +5,7 @@
 namespace house {
 namespace {
 
-constexpr std::int64_t kLinesOfProgram = 112'500, kLinesOfTests = 46'100, kWordsOfDocs = 34'500;
+constexpr std::int64_t kLinesOfProgram = 112'500, kLinesOfTests = 47'200, kWordsOfDocs = 34'500;
 
 bool is_source(const fs::path& file, const std::set<std::string>& endings) {
   static const std::set<std::string> generated{"gallery/web/src/records.ts",
