@@ -10,7 +10,7 @@
 namespace lobelia {
 namespace {
 
-/// What a program says that caught a signal. One that got it too early says nothing.
+/// A program says this when it caught a signal. One that got it too early says nothing.
 constexpr char kInterrupted[] = "lobelia: interrupted\n";
 
 class Interrupted : public ::testing::Test {
