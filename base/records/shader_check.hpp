@@ -7,6 +7,7 @@
 namespace lobelia::records {
 
 inline constexpr std::string_view kShaderVerdicts[] = {"passes", "differs"};
+inline constexpr std::string_view kShaderBindings[] = {"set", "name", "own value", "result"};
 inline constexpr std::string_view kShaderApis[] = {"egl", "vulkan", "webgpu"};
 
 /// A call of the function.
@@ -53,10 +54,16 @@ struct ShaderCost {
   std::optional<std::size_t> instructions;
 };
 
+/// A variable or a part of it, and where its value is from.
+struct ShaderBinding {
+  std::string name, type, value, by;
+};
+
 struct ShaderCheck {
   std::vector<std::string> command;
   std::string file, sha256, language, function, arguments;
   std::string model, lobe, normalisation;
+  std::vector<ShaderBinding> bindings;
   std::string api, device, driver;
   std::string verdict;
   std::vector<ShaderError> errors;

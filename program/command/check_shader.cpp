@@ -2,6 +2,7 @@
 #include "base/records/record.hpp"
 #include "base/system/files.hpp"
 #include "base/system/standard_streams.hpp"
+#include "base/words/text.hpp"
 #include "program/command/commands.hpp"
 #include "program/command/common_options.hpp"
 #include "program/command/options.hpp"
@@ -16,10 +17,11 @@ constexpr std::uint64_t kMaxShaderBytes = 1 << 20;
 constexpr std::string_view kOnNames[] = {"egl", "vulkan"};
 
 struct CheckShaderArguments {
-  std::string file, function, arguments = "N,V,L,n", model, lobe = "cosine",
-                              normalisation = "exact", language, on, json, html;
+  std::string file, function, arguments, model, lobe = "cosine", normalisation = "exact", language,
+                                                on, json, html;
   std::vector<double> exponents{std::begin(shader_check::kUsualExponents),
                                 std::end(shader_check::kUsualExponents)};
+  std::vector<std::string> settings;
   double time_limit = kShaderTimeLimit.count();
   bool no_costs = false;
 };
@@ -47,6 +49,15 @@ ShaderApi api_of(const CheckShaderArguments& options, ShaderText language) {
   return chosen_api;
 }
 
+/// "NAME=VALUE"
+std::pair<std::string, std::string> setting_of(const std::string& setting) {
+  const std::size_t sign = setting.find('=');
+  if (sign == setting.npos || sign == 0 || sign + 1 == setting.size())
+    throw Error(ExitCode::kUsage, "--set '{}': NAME=VALUE is expected, such as uShininess=n",
+                printable(setting));
+  return {setting.substr(0, sign), setting.substr(sign + 1)};
+}
+
 shader_check::Request request_of(const CheckShaderArguments& options) {
   shader_check::Request request;
   request.file = options.file;
@@ -54,6 +65,8 @@ shader_check::Request request_of(const CheckShaderArguments& options) {
   request.api = api_of(options, request.language);
   request.function = options.function;
   request.arguments = options.arguments;
+  for (const std::string& setting : options.settings)
+    request.settings.push_back(setting_of(setting));
   request.highlight.model = chosen(options.model, "--model", model_names(), find_model);
   request.highlight.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
   request.highlight.normalisation =
@@ -92,7 +105,8 @@ ExitCode run_check_shader(const CheckShaderArguments& options) {
 }
 
 std::string arguments_help() {
-  std::string text = "What the function takes, in its order:";
+  std::string text =
+      "What the function takes, in its order; otherwise by the names and types of its parameters:";
   for (const auto& argument : shader_check::argument_infos())
     text += fmt::format(" {} ({}),", argument.name, argument.meaning);
   return text + " or a number. With a minus sign a vector points to the surface";
@@ -106,12 +120,18 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CheckShaderArguments>();
   OptionGroup shader(*command, "Shader");
   shader.add("FILE", options->file, "FILE", "GLSL, HLSL or WGSL with the function")->required();
+  shader.add(
+      "--function", options->function, "NAME",
+      "The function: its result is radiance for unit irradiance; otherwise main, the entry of the "
+      "fragment stage, or the one that no other calls");
+  shader.add("--arguments", options->arguments, "LIST", arguments_help());
   shader
-      .add("--function", options->function, "NAME",
-           "The function: its result is radiance for "
-           "unit irradiance")
-      ->required();
-  shader.add("--arguments", options->arguments, "LIST", arguments_help())->capture_default_str();
+      .add(
+          "--set", options->settings, "NAME=VALUE",
+          "The value of a uniform, an input, a texture or any other variable: a number, a word of "
+          "--arguments, or a list of them, such as uShininess=n, SpecColor=1,1,1 or lights[0].pos=L. "
+          "May be repeated")
+      ->allow_extra_args(false);
   shader.add("--language", options->language, "",
              fmt::format("Language: {}; otherwise by the file's ending", join(kShaderTextNames)));
   shader.add("--on", options->on, "",
@@ -148,6 +168,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       "\n"
       "Examples:\n"
       "  lobelia check-shader mine.glsl --function myHighlight --model blinn_phong_ndf\n"
+      "  lobelia check-shader mine.frag --set lightColor=1,1,1 --model modified_phong\n"
       "  lobelia check-shader mine.hlsl --function spec --arguments cosine,roughness --model phong_rdf\n"
       "\n"
       "Exit codes: 0 it is the model, 1 it differs, 2 usage, 3 it does not compile, end or write, 4 an\n"

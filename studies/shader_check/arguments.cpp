@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <ranges>
 
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
+#include "studies/shader_check/meanings.hpp"
 
 namespace lobelia::shader_check {
 namespace {
@@ -27,9 +29,8 @@ struct Known {
     const Vec3 sum = point.to_light + point.to_eye;
     return length(sum) > 0 ? normalize(sum) : sum;
   }
-  Vec3 mirrored() const {
-    return 2 * dot(point.normal, point.to_eye) * point.normal - point.to_eye;
-  }
+  Vec3 mirrored(Vec3 v) const { return 2 * dot(point.normal, v) * point.normal - v; }
+  double roughness() const { return std::sqrt(alpha()); }
 };
 
 struct ArgumentRow {
@@ -43,7 +44,10 @@ constexpr ArgumentRow kRows[] = {
     {{"L", "direction to the light", 3}, [](const Known& k) { return k.point.to_light; }},
     {{"H", "half vector, (L + V) / |L + V|", 3}, [](const Known& k) { return k.half(); }},
     {{"R", "mirror direction of the eye, 2 (N.V) N - V", 3},
-     [](const Known& k) { return k.mirrored(); }},
+     [](const Known& k) { return k.mirrored(k.point.to_eye); }},
+    {{"RL", "mirror direction of the light, 2 (N.L) N - L", 3},
+     [](const Known& k) { return k.mirrored(k.point.to_light); }},
+    {{"position", "of the surface: 0, 0, 0", 3}, [](const Known&) { return Vec3{}; }},
     {{"n", "exponent"}, [](const Known& k) { return Vec3{k.point.exponent}; }},
     {{"coefficient", "of the model, for n"}, [](const Known& k) { return Vec3{k.coefficient}; }},
     {{"s", "1 - cosine of the angle that the lobe sees"},
@@ -57,8 +61,16 @@ constexpr ArgumentRow kRows[] = {
      [](const Known& k) { return Vec3{k.geometry.v_dot_h}; }},
     {{"R.L", "cosine between mirror direction and light"},
      [](const Known& k) { return Vec3{k.geometry.mirror}; }},
+    {{"L.V", "cosine between light and eye"},
+     [](const Known& k) { return Vec3{k.geometry.l_dot_v}; }},
     {{"alpha", "sqrt(2 / (n + 2))"}, [](const Known& k) { return Vec3{k.alpha()}; }},
-    {{"roughness", "the root of alpha"}, [](const Known& k) { return Vec3{std::sqrt(k.alpha())}; }},
+    {{"alpha2", "alpha squared"}, [](const Known& k) { return Vec3{k.alpha() * k.alpha()}; }},
+    {{"roughness", "the root of alpha"}, [](const Known& k) { return Vec3{k.roughness()}; }},
+    {{"smoothness", "1 - roughness"}, [](const Known& k) { return Vec3{1 - k.roughness()}; }},
+    {{"gloss", "(log2(n) - 1) / 10"},
+     [](const Known& k) { return Vec3{(std::log2(k.point.exponent) - 1) / 10}; }},
+    {{"n/128", "n / 128"}, [](const Known& k) { return Vec3{k.point.exponent / 128}; }},
+    {{"n/1000", "n / 1000"}, [](const Known& k) { return Vec3{k.point.exponent / 1000}; }},
 };
 
 constexpr auto kInfos = [] {
@@ -79,27 +91,31 @@ std::string vector_at(std::size_t at, ShaderText language) {
 
 std::span<const ArgumentInfo> argument_infos() { return kInfos; }
 
-Arguments::Arguments(const std::string& list, const Highlight& highlight) : highlight_(highlight) {
-  for (const std::string& word : split(list, ",")) {
-    Given given;
-    std::string name = word;
-    if (parse_number(word, given.number)) {
-      given.info = kInfos.size();
-      given_.push_back(given);
-      continue;
+std::vector<std::string> Arguments::add(const std::string& word, std::string_view option) {
+  auto given = std::ranges::find(given_, word, &Given::word);
+  if (given == given_.end()) {
+    Given made{word, kInfos.size(), components(), false, 0};
+    if (!parse_number(word, made.number)) {
+      made.negative = word.starts_with('-');
+      const std::string name = word.substr(made.negative ? 1 : 0);
+      const auto found = std::ranges::find(kInfos, name, &ArgumentInfo::name);
+      if (found == kInfos.end()) {
+        std::vector<std::string_view> names;
+        for (const ArgumentInfo& one : kInfos) names.push_back(one.name);
+        throw Error(ExitCode::kUsage, "{}: '{}' is unknown; allowed: {}, and numbers{}", option,
+                    printable(word), join(names), did_you_mean(name, names));
+      }
+      made.info = std::size_t(found - kInfos.begin());
     }
-    if (name.starts_with('-')) given.negative = true, name.erase(0, 1);
-    const auto found = std::ranges::find(kInfos, name, &ArgumentInfo::name);
-    if (found == kInfos.end()) {
-      std::vector<std::string_view> names;
-      for (const ArgumentInfo& one : kInfos) names.push_back(one.name);
-      throw Error(ExitCode::kUsage, "--arguments: '{}' is unknown; allowed: {}, and numbers{}",
-                  printable(word), join(names), did_you_mean(name, names));
-    }
-    given.info = std::size_t(found - kInfos.begin());
-    given_.push_back(given);
+    constexpr std::size_t kMost = 40;
+    if (given_.size() >= kMost)
+      throw Error(ExitCode::kUsage, "{}: at most {} different values are allowed", option, kMost);
+    given = given_.insert(given_.end(), std::move(made));
   }
-  if (given_.size() > 16) throw Error(ExitCode::kUsage, "--arguments: at most 16 are allowed");
+  std::vector<std::string> texts;
+  const int count = given->info == kInfos.size() ? 1 : kInfos[given->info].components;
+  for (int i = 0; i < count; ++i) texts.push_back(shader_component(given->first + std::size_t(i)));
+  return texts;
 }
 
 ShaderPoints Arguments::of(const std::vector<Point>& points) const {
@@ -132,25 +148,65 @@ std::size_t Arguments::components() const {
   return count;
 }
 
-std::string Arguments::call(std::string_view function, ShaderText language) const {
-  std::string text;
-  std::size_t at = kCommon;
-  for (const Given& given : given_) {
-    const int components = given.info == kInfos.size() ? 1 : kInfos[given.info].components;
-    text += (text.empty() ? "" : ", ") +
-            (components == 3 ? vector_at(at, language) : shader_component(at));
-    at += std::size_t(components);
-  }
-  return fmt::format("{}({})", function, text);
-}
-
 bool Arguments::is_of_roughness() const {
   const auto has = [&](std::string_view name) {
     return std::ranges::any_of(given_, [&](const Given& given) {
       return given.info < kInfos.size() && kInfos[given.info].name == name;
     });
   };
-  return has("alpha") || has("roughness");
+  return has("alpha") || has("alpha2") || has("roughness") || has("smoothness");
+}
+
+bool takes_word(const Declared& parameter) {
+  return parameter.is_in && parameter.dimensions.empty() && shape_of(parameter.type).is_number();
+}
+
+std::vector<std::string> likely_arguments(const FunctionDeclaration& function, std::size_t most) {
+  std::vector<std::vector<std::string>> choices;
+  for (const Declared& one : function.parameters) {
+    if (!takes_word(one)) continue;
+    const TypeShape shape = shape_of(one.type);
+    Meaning meaning = meaning_of(one.name, shape);
+    if (meaning.values.empty() && (shape.rows == 3 || shape.rows == 4) && shape.columns == 1)
+      meaning.values = {"N", "V", "L", "H", "R"};
+    if (meaning.values.empty() && shape.rows == 1)
+      meaning.values = {"n",   "roughness", "alpha", "cosine",      "N.H", "N.L",
+                        "N.V", "V.H",       "gloss", "coefficient", "1"};
+    if (meaning.values.empty()) meaning.values = {"0"};
+    choices.push_back(std::move(meaning.values));
+  }
+  std::vector<std::string> lists;
+  std::vector<std::string> words;
+  int left = 200'000;  // of steps
+  // The places of the words in their choices add up to `rank`.
+  const std::function<void(std::size_t)> fill_in = [&](std::size_t rank) {
+    if (lists.size() >= most || --left < 0) return;
+    const std::size_t k = words.size();
+    if (k == choices.size()) {
+      if (rank > 0) return;
+      const auto has = [&](std::string_view word) { return std::ranges::count(words, word) > 0; };
+      std::vector<std::string_view> made(words.begin(), words.end());
+      // R beside the eye is the light's.
+      if (has("V") && !has("L")) std::ranges::replace(made, "R", "RL");
+      lists.push_back(join(made, ","));
+      return;
+    }
+    for (std::size_t i = 0; i < std::min(choices[k].size(), rank + 1); ++i) {
+      double number = 0;
+      if (std::ranges::count(words, choices[k][i]) > 0 && !parse_number(choices[k][i], number))
+        continue;
+      words.push_back(choices[k][i]);
+      fill_in(rank - i);
+      words.pop_back();
+    }
+  };
+  for (std::size_t rank = 0; rank < 30 && lists.size() < most && left > 0; ++rank) fill_in(rank);
+  if (lists.empty()) {  // two parameters of one meaning
+    std::vector<std::string_view> first;
+    for (const auto& choice : choices) first.push_back(choice.front());
+    lists.push_back(join(first, ","));
+  }
+  return lists;
 }
 
 std::string common_vectors(ShaderText language) {

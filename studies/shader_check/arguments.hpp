@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/highlight.hpp"
+#include "studies/shader_check/declarations.hpp"
 #include "studies/shader_check/points.hpp"
 #include "studies/shader_check/run_shaders.hpp"
 
@@ -19,28 +20,38 @@ struct ArgumentInfo {
 /// "N", "V", ..., for the help and docs/check_shader.md. A number such as 1.5 is an argument too.
 std::span<const ArgumentInfo> argument_infos();
 
+/// The values that a call takes, each as components of a point.
 class Arguments {
  public:
-  /// From "N,V,-L,n". Throws Error(kUsage) that names an unknown argument and what is allowed.
-  Arguments(const std::string& list, const Highlight& highlight);
+  explicit Arguments(const Highlight& highlight) : highlight_(highlight) {}
 
-  /// The points' components: first those that common_vectors() and the like name, then those of this list.
+  /// The components of "N", "-L" or "1.5", as expressions. Throws Error(kUsage) that names `option`, the unknown word and
+  /// what is allowed, or that says that there are too many.
+  std::vector<std::string> add(const std::string& word, std::string_view option);
+
+  /// The points' components: first those that common_vectors() and the like name, then those that were added.
   ShaderPoints of(const std::vector<Point>& points) const;
-  /// "myHighlight(vec3(lobelia_p0.x, ...), ...)"
-  std::string call(std::string_view function, ShaderText language) const;
   /// Whether a function with them can know the exponent only through a roughness.
   bool is_of_roughness() const;
 
  private:
-  std::size_t components() const;
   struct Given {
-    std::size_t info = 0;
+    std::string word;
+    std::size_t info = 0, first = 0;
     bool negative = false;
     double number = 0;  ///< if `info` is past the last
   };
+  std::size_t components() const;
   std::vector<Given> given_;
   Highlight highlight_;
 };
+
+/// Lists for --arguments, the likeliest first, at most `most`: a word for each parameter that is a number or a vector and
+/// not only a result. Names and types that tell leave one word.
+std::vector<std::string> likely_arguments(const FunctionDeclaration& function, std::size_t most);
+
+/// The parameters that have a word in such a list.
+bool takes_word(const Declared& parameter);
 
 /// Calls of functions that take the common components.
 std::string common_vectors(ShaderText language);  ///< "vec3(...), vec3(...), vec3(...)": N, V, L

@@ -3,32 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "base/system/error.hpp"
 #include "base/system/sha256.hpp"
 #include "base/words/text.hpp"
-#include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/own_shader.hpp"
-#include "studies/shader_check/program_text.hpp"
+#include "studies/shader_check/shader_call.hpp"
 
 namespace lobelia::shader_check {
 namespace {
 
 /// A loop of Mesa's 65535 rounds takes hundreds of times as long as pow.
 constexpr double kOfALoop = 100;
-
-void require_function(const Request& request, const ShaderSource& source) {
-  std::set<std::string> names = functions_in(plain_text(source));
-  names.erase("main");
-  if (names.contains(request.function)) return;
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  throw Error(ExitCode::kInput,
-              known.empty() ? fmt::format("{}: has no function", source.name)
-                            : fmt::format("{}: has no function '{}'; it has {}{}", source.name,
-                                          printable(request.function), join(known),
-                                          did_you_mean(request.function, known)));
-}
 
 void add_energy(Judge& judge, const Plan& plan, records::ShaderCheck& record) {
   for (const auto& [part, exponent, degrees, solid_angles] : plan.hemispheres) {
@@ -62,7 +48,8 @@ void add_pictures(const Plan& plan, Judge& judge, Check& check) {
 }
 
 /// Mesa leaves a loop after 65535 rounds, so that an endless one only takes long.
-void require_end(const Request& request, const ShaderSource& source, const ShaderPoints& points) {
+void require_end(const Request& request, const ShaderSource& source, const std::string& function,
+                 const ShaderPoints& points) {
   if (request.api == ShaderApi::kWebGpu) return;
   const double times = times_as_long_as_pow(
       request,
@@ -72,18 +59,15 @@ void require_end(const Request& request, const ShaderSource& source, const Shade
     throw Error(ExitCode::kInput,
                 "{}: {} does not seem to end: it takes {:.0f} times as long as pow, and "
                 "Mesa leaves a loop after 65535 rounds",
-                source.name, request.function, times);
+                source.name, function, times);
 }
 
 }  // namespace
 
 Check check_shader(const Request& request) {
-  const Arguments arguments(request.arguments, request.highlight);
-  const ShaderSource source{request.language,
-                            printable_path(request.file),
-                            request.text,
-                            {arguments.call(request.function, request.language)}};
-  require_function(request, source);
+  const ShaderCall call = shader_call(request);
+  const ShaderSource& source = call.source;
+  const Arguments& arguments = call.arguments;
   Plan plan = judged_plan(request.highlight, request.exponents, request.shown_exponent);
   add_hemispheres(request.highlight, request.exponents, plan);
   const ShaderPoints points = arguments.of(plan.points);
@@ -101,8 +85,10 @@ Check check_shader(const Request& request) {
   record.file = printable_path(request.file);
   record.sha256 = hex(sha256(request.text));
   record.language = kShaderTextNames[std::size_t(request.language)];
-  record.function = request.function;
-  record.arguments = request.arguments;
+  record.function = call.function;
+  record.arguments = call.list;
+  record.bindings = call.bindings;
+  record.remarks = call.remarks;
   record.model = info(request.highlight.model).name;
   record.lobe = info(request.highlight.lobe).name;
   record.normalisation = name(request.highlight.normalisation);
@@ -113,19 +99,19 @@ Check check_shader(const Request& request) {
   const std::vector<ShaderValue>& values = run.values.back();
   if (std::ranges::none_of(values, &ShaderValue::written))
     throw Error(ExitCode::kInput, "{}: {} writes nothing: every call is discarded", record.file,
-                request.function);
+                call.function);
   Judge judge(request.highlight, plan, values);
   judge.judge(record);
   const bool passes = record.verdict == records::kShaderVerdicts[0];
   const auto begin = plan.points.begin() + std::ptrdiff_t(plan.domain.begin);
   const std::vector<Point> domain(begin, begin + std::ptrdiff_t(plan.domain.count));
   const ShaderPoints domain_points = arguments.of(domain);
-  if (!passes) require_end(request, source, domain_points);
+  if (!passes) require_end(request, source, call.function, domain_points);
   if (!passes) record.explanation = judge.explanation(record.oddities, arguments.is_of_roughness());
   add_energy(judge, plan, record);
   add_pictures(plan, judge, check);
   if (request.costs) {
-    add_costs(request, arguments, domain, domain_points, values, record);
+    add_costs(request, source, domain, domain_points, values, record);
   }
   return check;
 }

@@ -16,7 +16,9 @@ struct Request {
   std::string file, text;
   ShaderText language = ShaderText::kGlsl;
   ShaderApi api = ShaderApi::kEgl;
-  std::string function, arguments;
+  std::string function, arguments;  ///< "" if they are to be found
+  /// Values of variables and parameters: {"material.shininess", "n"}, {"lightColor", "1,1,1"}.
+  std::vector<std::pair<std::string, std::string>> settings = {};
   Highlight highlight;                      ///< without its exponent
   std::vector<double> exponents;            ///< not empty
   double shown_exponent = 64;               ///< of pictures and the curve
@@ -41,7 +43,7 @@ struct Check {
   double shown_exponent = 64;
 };
 
-/// Throws Error(kUsage) for arguments that are unknown, Error(kInput) if the function does not compile, does not end or
+/// Throws what shader_call() does, Error(kInput) if the function does not compile, does not end or
 /// writes nothing, and Error(kEngine) if nothing runs shaders here.
 Check check_shader(const Request& request);
 
@@ -53,7 +55,7 @@ std::string report_page(const Check& check);
 // Parts of the check: the cost of a shader function beside ours and pow, and the effect of half floats on it.
 
 /// `values` are those of `domain`, which is in `points`. What cannot be measured is a remark of the record.
-void add_costs(const Request& request, const Arguments& arguments, const std::vector<Point>& domain,
+void add_costs(const Request& request, const ShaderSource& source, const std::vector<Point>& domain,
                const ShaderPoints& points, const std::vector<ShaderValue>& values,
                records::ShaderCheck& record);
 

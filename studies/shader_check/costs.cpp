@@ -27,15 +27,10 @@ ShaderSource power(ShaderText language) {
 
 class Costs {
  public:
-  Costs(const Request& request, const Arguments& arguments, const ShaderPoints& points,
+  Costs(const Request& request, const ShaderSource& source, const ShaderPoints& points,
         records::ShaderCheck& record)
       : request_(request), points_(points), record_(record) {
-    sources_ = {{request.language,
-                 record.file,
-                 request.text,
-                 {arguments.call(request.function, request.language)}},
-                own_source(request),
-                power(request.language)};
+    sources_ = {source, own_source(request), power(request.language)};
     for (const char* name : {"function", "ours", "pow"}) record.costs.push_back({name, {}});
   }
 
@@ -110,14 +105,14 @@ double times_as_long_as_pow(const Request& request, const ShaderProgram& program
   return std::ranges::min(run.seconds[0]) / std::ranges::min(run.seconds[1]);
 }
 
-void add_costs(const Request& request, const Arguments& arguments, const std::vector<Point>& domain,
+void add_costs(const Request& request, const ShaderSource& source, const std::vector<Point>& domain,
                const ShaderPoints& points, const std::vector<ShaderValue>& values,
                records::ShaderCheck& record) {
   if (request.language == ShaderText::kWgsl) {
     record.remarks.push_back("not measured: instructions and half floats: glslang has no WGSL");
     return;
   }
-  Costs costs(request, arguments, points, record);
+  Costs costs(request, source, points, record);
   costs.try_to("instructions", [&] { costs.count(); });
   costs.try_to("half floats", [&] { costs.half_floats(domain, values); });
 }

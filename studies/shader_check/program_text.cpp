@@ -8,6 +8,7 @@
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
 #include "renderer/export/names.hpp"
+#include "studies/shader_check/declarations.hpp"
 #include "studies/shader_check/runner_protocol.hpp"
 
 namespace lobelia {
@@ -86,27 +87,6 @@ fn lobelia_main(@builtin(global_invocation_id) lobelia_id: vec3u)
 
 std::size_t count_lines(std::string_view text) {
   return std::size_t(std::ranges::count(text, '\n'));
-}
-
-bool is_word_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-bool is_word(std::string_view token) { return is_word_character(token[0]); }
-
-/// Words and single characters of a plain text. By hand, because std::regex takes stack for each character.
-std::vector<std::string_view> tokens_of(std::string_view text) {
-  std::vector<std::string_view> tokens;
-  for (std::size_t at = 0; at < text.size();) {
-    std::size_t end = at + 1;
-    if (is_word_character(text[at])) {
-      while (end < text.size() && is_word_character(text[end])) ++end;
-      tokens.push_back(text.substr(at, end - at));
-    } else if (text[at] > ' ') {
-      tokens.push_back(text.substr(at, 1));
-    }
-    at = end;
-  }
-  return tokens;
 }
 
 [[noreturn]] void refuse_line(const ShaderSource& source, std::string_view text, std::size_t at,
@@ -236,34 +216,45 @@ void refuse_includes(const ShaderSource& source, std::string_view plain) {
   }
 }
 
-/// The text without its #version, and the one that a driver needs for it.
+/// The text without its #version and its #extension lines, which have to come first, and those that a driver needs for it.
 struct Version {
-  std::string line, rest;
-  std::size_t at = 0;          ///< the line of the text that had it; 0: none
+  std::string lines, rest;
+  std::size_t at = 0;          ///< the line of the text that had the version; 0: none
   std::string directive = {};  ///< as the text has it
 };
 Version take_version(const std::string& text, ShaderApi api) {
-  std::string rest = text;
-  std::size_t at_line = 0;
-  std::string directive;
+  Version version;
+  std::vector<TextEdit> edits;
+  std::string extensions;
   long long number = 0;
   bool is_es = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const auto tokens = tokens_of(std::string_view(text).substr(at, end - at));
-    if (tokens.size() >= 3 && tokens[0] == "#" && tokens[1] == "version" &&
-        parse_integer(tokens[2], number)) {
+    const std::size_t first = std::min(text.find_first_not_of(" \t\v\f", at), end);
+    const auto tokens =
+        first < end && text[first] == '#' ? plain_tokens(text, first, end) : std::vector<Token>();
+    if (tokens.size() >= 3 && tokens[1] == "version" && version.at == 0 &&
+        parse_integer(tokens[2].text, number)) {
       is_es = (tokens.size() > 3 && tokens[3] == "es") || number == 100;
-      directive = text.substr(at, end - at);
-      rest.replace(at, end - at, "");
-      at_line = 1 + count_lines(text.substr(0, at));
-      break;
+      version.directive = text.substr(at, end - at);
+      version.at = 1 + count_lines(text.substr(0, at));
+      edits.push_back({at, end});
+    } else if (tokens.size() >= 5 && tokens[1] == "extension") {
+      // Those that a newer version has in itself cannot be required.
+      if (!(tokens[4] == "disable"))
+        extensions += fmt::format("#extension {} : enable\n", tokens[2].text);
+      edits.push_back({at, end});
     }
     at = end + 1;
   }
-  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest, at_line, directive};
   number = std::clamp(number, is_es ? 300LL : 330LL, 999LL);
-  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest, at_line, directive};
+  version.lines =
+      (api == ShaderApi::kVulkan ? "#version 450\n"
+                                 : fmt::format("#version {}{}\n", number, is_es ? " es" : "")) +
+      extensions;
+  if (is_es && api != ShaderApi::kVulkan) version.lines += "precision highp float;\n";
+  version.rest = edited(text, std::move(edits));
+  return version;
 }
 
 }  // namespace
@@ -293,7 +284,7 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   const bool is_hlsl = source.language == ShaderText::kHlsl,
              is_wgsl = source.language == ShaderText::kWgsl;
   const std::size_t texels = texels_of_point(components);
-  std::string fetches, calls;
+  std::string fetches, calls = source.setup;
   for (std::size_t t = 0; t < texels; ++t)
     fetches +=
         is_wgsl ? fmt::format("    var lobelia_p{0} = lobelia_points[lobelia_t + {0}];\n", t)
@@ -319,12 +310,12 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
     text = without_mark(source.text);
   } else if (!is_hlsl) {
     Version version = take_version(text, api);
-    begin = version.line;
-    if (begin.find(" es") != std::string::npos) begin += "precision highp float;\n";
-    if (functions_in(version.rest).contains("main")) begin += "#define main lobelia_main_of_file\n";
+    begin = version.lines;
     text = std::move(version.rest);
     version_line = version.at;
   }
+  if (!is_wgsl && text.find("main") != text.npos) begin += "#define main lobelia_main_of_file\n";
+  if (!is_wgsl) begin += source.prelude;
   ShaderProgram program{source.name, "", count_lines(begin), 0, version_line, source.is_own};
   if (text.empty() || text.back() != '\n') text += '\n';
   program.lines = count_lines(text);
@@ -332,7 +323,10 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                                 : is_hlsl                ? kHlslMain
                                 : api == ShaderApi::kEgl ? kFragmentMain
                                                          : kGlslComputeMain;
-  program.bytes = begin + text + (is_hlsl || is_wgsl ? "" : kOwnPrecision) +
+  program.bytes = begin + text +
+                  (is_wgsl   ? source.prelude
+                   : is_hlsl ? ""
+                             : kOwnPrecision) +
                   fill((is_wgsl ? "" : std::string(kAsFour)) + std::string(main),
                        {{"vec4", is_hlsl ? "float4" : "vec4"},
                         {"vec3", is_hlsl ? "float3" : "vec3"},
@@ -345,28 +339,6 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                         {"fetches", fetches},
                         {"calls", calls}});
   return program;
-}
-
-std::set<std::string> functions_in(std::string_view plain) {
-  const std::vector<std::string_view> tokens = tokens_of(plain);
-  // For each token the first one from it on that ends parameters. Sought from each name anew, it would take for ever.
-  std::vector<std::size_t> ends(tokens.size() + 1, tokens.size());
-  for (std::size_t i = tokens.size(); i-- > 0;)
-    ends[i] = tokens[i] == ")" || tokens[i] == ";" || tokens[i] == "{" ? i : ends[i + 1];
-  std::set<std::string> names;
-  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
-    if (!is_word(tokens[i]) || !is_word(tokens[i - 1]) || tokens[i + 1] != "(" ||
-        tokens[i - 1] == "else" || tokens[i - 1] == "return")
-      continue;
-    const std::size_t at = ends[i + 2];
-    // Behind the parameters HLSL may have a semantic, and WGSL has a type.
-    constexpr std::size_t kMostBehind = 12;
-    for (std::size_t k = at + 1; k < std::min(tokens.size(), at + kMostBehind); ++k) {
-      if (tokens[k] == "{") names.emplace(tokens[i]);
-      if (tokens[k] == "{" || tokens[k] == ";" || tokens[k] == ")") break;
-    }
-  }
-  return names;
 }
 
 std::string version_directive(const ShaderSource& source) {

@@ -1,8 +1,6 @@
 // The text around somebody's functions that makes a program of them.
 #pragma once
 
-#include <set>
-
 #include "base/system/error.hpp"
 #include "base/system/process.hpp"
 #include "studies/shader_check/run_shaders.hpp"
@@ -21,9 +19,6 @@ std::string plain_text(const ShaderSource& source);
 /// The program's text, with its lines: a fragment shader for EGL, a compute shader for Vulkan. Throws as plain_text().
 ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_t points,
                            std::size_t components);
-
-/// The names of the functions that a plain text defines, in any of the languages.
-std::set<std::string> functions_in(std::string_view plain);
 
 /// The #version of a text; "" if it has none.
 std::string version_directive(const ShaderSource& source);

@@ -77,6 +77,21 @@ std::string half_text(const std::vector<records::ShaderHalf>& half) {
   return text;
 }
 
+/// "by name: uShininess = n; set: SpecColor = 1,1,1"
+std::string bindings_text(const std::vector<records::ShaderBinding>& bindings) {
+  std::string text;
+  for (const std::string_view by : records::kShaderBindings) {
+    std::string part;
+    for (const records::ShaderBinding& one : bindings)
+      if (one.by == by)
+        part += (part.empty() ? "" : ", ") +
+                (by == "result" ? one.name : fmt::format("{} = {}", one.name, one.value));
+    if (!part.empty())
+      text += fmt::format("{}: {}\n", by == "name" ? "by name" : by == "set" ? "--set" : by, part);
+  }
+  return text.empty() ? "" : text + "\n";
+}
+
 std::string cost_text(const std::vector<records::ShaderCost>& costs) {
   std::string text;
   for (const records::ShaderCost& cost : costs)
@@ -92,6 +107,7 @@ std::string report_text(const records::ShaderCheck& record) {
   std::string text = fmt::format("{}: {}({}) against {}, lobe {}, normalisation {}\non {}, {}\n\n",
                                  record.file, record.function, record.arguments, record.model,
                                  record.lobe, record.normalisation, record.device, record.driver);
+  text += bindings_text(record.bindings);
   text += record.verdict == "passes" ? "passes: it is the model within the rounding of float32\n"
                                      : "differs: ";
   if (record.explanation) {

@@ -30,7 +30,9 @@ struct ShaderSource {
   /// Each is an expression of a number or a vector of 3 or 4. It may use the components of a point: component 5 is
   /// shader_component(5).
   std::vector<std::string> calls;
-  bool is_own = false;  ///< Lobelia's own: if it fails, the driver is wrong
+  bool is_own = false;       ///< Lobelia's own: if it fails, the driver is wrong
+  std::string prelude = {};  ///< declarations before the text; behind it in WGSL
+  std::string setup = {};    ///< statements before the calls
 };
 
 /// "lobelia_p1.y" for 5.

@@ -10,7 +10,6 @@
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/mistakes.hpp"
 #include "studies/shader_check/own_shader.hpp"
-#include "studies/shader_check/program_text.hpp"
 #include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/studies/planted_mistakes.hpp"
@@ -120,7 +119,7 @@ TEST_F(ShaderCheck, TakesTheDriverForRightWithEveryModelAndLobe) {
     for (const LobeId& lobe : all_lobes()) {
       request.highlight.lobe = lobe;
       // The coefficient is that of the lobe.
-      const ShaderPoints called = shader_check::Arguments("n", request.highlight).of(points);
+      const ShaderPoints called = shader_check::Arguments(request.highlight).of(points);
       const ShaderRun run =
           run_programs(request.api, called,
                        {make_program(shader_check::own_source(request), request.api, called.count(),
@@ -213,8 +212,9 @@ TEST_F(ShaderCheck, RefusesInOneLineABrokenShader) {
       "3: mine.glsl: has no function 'highligt'; it has highlight; did you mean 'highlight'?");
   request = request_of("phong_rdf", head + "{ return 1.0; }\n");
   request.arguments = "N,V,L";
-  EXPECT_THAT(why_not(request),
-              testing::StartsWith("3: mine.glsl: the call of the function does not compile: "));
+  EXPECT_EQ(
+      why_not(request),
+      "2: mine.glsl: --arguments has 3 words, but highlight takes: vec3 N, vec3 V, vec3 L, float n");
   request.arguments = "N,V,L,m";
   EXPECT_THAT(why_not(request),
               testing::StartsWith("2: --arguments: 'm' is unknown; allowed: N, V"));
@@ -298,23 +298,6 @@ TEST(Explain, FindsEachMistakeOfItsCatalogueInEveryModel) {
     }
   }
   EXPECT_GE(found, more_samples() == 1 ? 66 : 200);
-}
-
-TEST(FunctionsIn, AreThoseThatATextDefinesInAnyLanguage) {
-  const ShaderSource commented{
-      ShaderText::kGlsl,
-      "mine.glsl",
-      "// float no(float x) {\n"
-      "highp float a(vec3 N /* (normal) */,\n  float n) // here\n{ if (n > 0.0) "
-      "{ return b(n); } else if (n < 1.0) { for (;;) {} } }\n"
-      "float later(float x);\nvoid main(){}\n",
-      {}};
-  EXPECT_THAT(functions_in(plain_text(commented)), testing::ElementsAre("a", "main"));
-  EXPECT_THAT(functions_in("float4 c(float x : TEXCOORD0) : SV_Target { return x; }"),
-              testing::ElementsAre("c"));
-  EXPECT_THAT(functions_in("fn d(N: vec3f, n: f32) -> f32 { return n; }"),
-              testing::ElementsAre("d"));
-  EXPECT_THAT(functions_in(std::string(1 << 20, '(')), testing::IsEmpty());
 }
 
 }  // namespace
