@@ -1,4 +1,4 @@
-// What a shader's text declares: its functions, structures and global variables, in GLSL, HLSL and WGSL.
+// The functions, structures and global variables that a shader's text declares, in GLSL, HLSL and WGSL.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What the names of a shader's parameters and variables mean.
+// Meanings of the names of a shader's parameters and variables.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a function of a shader reads, through all that it calls.
+// All that a function of a shader reads, through the functions that it calls.
 #pragma once
 
 #include <set>

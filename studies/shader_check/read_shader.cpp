@@ -106,7 +106,7 @@ void refuse_own_names(const ReadShader& shader, std::string_view file) {
   }
 }
 
-/// Of HLSL an entry may have a structure with the target in it.
+/// An entry of HLSL may give a structure with the target in it.
 void find_entries(Declarations& declared) {
   for (FunctionDeclaration& function : declared.functions)
     if (const StructDeclaration* result = declared.find_struct(function.result))

@@ -30,7 +30,7 @@ struct TokenList {
   /// The first bracket without a partner: where it is in the text, and what is wrong. Empty if all have one.
   std::size_t wrong_at = 0;
   std::string wrong;
-  /// What each #define puts in place of its name.
+  /// The text of each #define, by its name.
   std::map<std::string, std::vector<Token>, std::less<>> macros;
 
   std::size_t size() const { return tokens.size(); }

@@ -136,7 +136,8 @@ TextureEdits texture_edits(const TokenList& list, const Declarations& declared,
   textures.read(list.tokens,
                 [&](std::size_t i) { return std::min(list.partner[i] + 1, list.size()); });
   constexpr std::size_t kLongest = 400;  // each call in it looks for its end
-  for (const auto& [name, tokens] : list.macros) {
+  for (const auto& macro : list.macros) {
+    const std::vector<Token>& tokens = macro.second;
     if (tokens.size() > kLongest) continue;
     textures.read(tokens, [&](std::size_t i) {
       int depth = 0;

@@ -24,6 +24,9 @@ void check_scene_reader(std::string_view text);
 /// Reads the text as a scene of Mitsuba. It is refused, or a scene whose written text reads back to the same scene.
 void check_mitsuba_reader(std::string_view text);
 
+/// Reads the text as a shader of each language. The text whose variables are private has the same lines.
+void check_shader_reader(std::string_view text);
+
 /// Reads a bundle's grid.xml with the scenes that it names. It is refused, or a grid whose cells have unique ids and a
 /// scene.
 void check_grid_reader(std::string_view bundle);

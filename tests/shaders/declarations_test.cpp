@@ -1,4 +1,4 @@
-// What a shader's text declares, what its names mean, and the text with private variables in place of uniforms.
+// Declarations of a shader's text, meanings of its names, and the text with private variables in place of uniforms.
 #include "studies/shader_check/declarations.hpp"
 
 #include <random>
@@ -138,7 +138,7 @@ TEST(Declarations, ReadingsOfTexturesBecomeTheirValue) {
             "  var<private> t: LobeliaTexture;\nfn f() -> vec4f { return ((t).value); }");
 }
 
-TEST(Declarations, ConditionsThatDoNotHoldHideTheirText) {
+TEST(Declarations, FalseConditionsHideTheirText) {
   EXPECT_THAT(
       globals_of("#define A 2\n#ifdef A\nuniform float a;\n#else\nuniform float b;\n#endif\n"
                  "#if A == 1 || defined(B)\nuniform float c;\n#elif (A > 1)\nuniform float d;\n"
@@ -235,7 +235,7 @@ TEST(LikelyArguments, AreTheNamedOnesOrEachOrder) {
 }
 
 /// Parts of shaders in any order, with brackets and directives that do not fit.
-TEST(Declarations, RandomTextsKeepTheirLinesAndAreReadToTheirEnd) {
+TEST(Declarations, RandomTextsKeepTheirLines) {
   constexpr const char* kParts[] = {
       "uniform ",   "vec3 ",   "in ",      "a",        "b",          "(",
       ")",          "{",       "}",        "[",        "]",          ";",

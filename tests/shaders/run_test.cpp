@@ -223,7 +223,7 @@ TEST_F(RunInABrowser, EveryWgslFunctionHasTheRadianceOfTheFormulasOnWebGpu) {
   expect_the_formulas(ShaderText::kWgsl, ShaderApi::kWebGpu);
 }
 
-TEST_F(RunByADriver, AFailureIsThatOfTheProgramThatFailed) {
+TEST_F(RunByADriver, AFailureNamesItsProgram) {
   const auto failure = [](const std::string& own, const std::string& theirs) {
     ShaderProgram ours =
         program_text({ShaderText::kGlsl, "mine", "", {own}, true}, ShaderApi::kEgl, 1, 1);

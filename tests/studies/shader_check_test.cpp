@@ -108,7 +108,7 @@ TEST_F(ShaderCheck, PassesAnExportedFunctionInEveryVersionOfGlsl) {
     }
 }
 
-TEST_F(ShaderCheck, TakesTheDriverForRightWithEveryModelAndLobe) {
+TEST_F(ShaderCheck, TakesTheDriverForRightWithEveryLobe) {
   for (const ModelId model : all_models()) {
     shader_check::Request request = request_of(info(model).name.data(), "");
     std::vector<shader_check::Point> points;

@@ -45,6 +45,24 @@ void replay(const std::string& corpus, void (*check)(std::string_view), Counts l
   EXPECT_GE(counts.refused, least.refused);
 }
 
+/// Bytes at random, the same ones each time.
+void expect_survives_changed_bytes(const std::string& corpus, void (*check)(std::string_view),
+                                   int changes) {
+  std::mt19937 random(8);
+  for (const fs::path& seed : seeds(corpus)) {
+    const std::string bytes = read_file(seed, 1 << 20);
+    for (int i = 0; i < changes; ++i) {
+      std::string changed = bytes;
+      const std::size_t at = random() % bytes.size();
+      const auto how = random() % 3;
+      if (how == 0) changed.erase(at, 1 + random() % 8);
+      if (how == 1) changed[at] = char(random());
+      if (how == 2) changed.resize(at);
+      ASSERT_NO_THROW(check(changed)) << seed << ", change " << i;
+    }
+  }
+}
+
 TEST(SceneCorpus, BreaksNothing) {
   replay("scene", check_scene_reader, {8, 3},
          [](const std::string& text) { parse_scene(text, "s.xml"); });
@@ -53,6 +71,14 @@ TEST(SceneCorpus, BreaksNothing) {
 TEST(MitsubaCorpus, BreaksNothing) {
   replay("mitsuba", check_mitsuba_reader, {2, 1},
          [](const std::string& text) { parse_mitsuba(text, "s.xml"); });
+}
+
+TEST(ShaderCorpus, BreaksNothing) {
+  replay("shader", check_shader_reader, {3, 0}, [](const std::string&) {});
+}
+
+TEST(ShaderCorpus, BreaksNothingWithBytesChanged) {
+  expect_survives_changed_bytes("shader", check_shader_reader, 4000);
 }
 
 /// The files of a bundle, and the directory of all.
@@ -83,24 +109,6 @@ TEST(PictureCorpus, BreaksNothing) {
     write_plainly(directory.path() / "picture.tga", bytes);
     read_image(directory.path() / "picture.tga");
   });
-}
-
-/// Bytes at random, the same ones each time.
-void expect_survives_changed_bytes(const std::string& corpus, void (*check)(std::string_view),
-                                   int changes) {
-  std::mt19937 random(8);
-  for (const fs::path& seed : seeds(corpus)) {
-    const std::string bytes = read_file(seed, 1 << 20);
-    for (int i = 0; i < changes; ++i) {
-      std::string changed = bytes;
-      const std::size_t at = random() % bytes.size();
-      const auto how = random() % 3;
-      if (how == 0) changed.erase(at, 1 + random() % 8);
-      if (how == 1) changed[at] = char(random());
-      if (how == 2) changed.resize(at);
-      ASSERT_NO_THROW(check(changed)) << seed << ", change " << i;
-    }
-  }
 }
 
 TEST(SceneCorpus, BreaksNothingWithBytesChanged) {
