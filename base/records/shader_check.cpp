@@ -35,6 +35,9 @@ void define_shader_check_tables(Tables& tables) {
     t.key("unwritten", "without any result");
     t.key("coloured", "with a colour that is not grey; red was compared");
     t.key("hardCalls", "in directions such as L = -V, where only a finite number is asked for");
+    t.key("belowCalls", "with the eye below the surface, where no model is defined");
+    t.key("belowNonfinite", "no part of the verdict");
+    t.key("belowLit", "not 0; no part of the verdict");
   });
   tables.define<ShaderHalf>("What changes if all of its arithmetic is in half floats.",
                             [](auto& t) {

@@ -42,6 +42,7 @@ struct ShaderOddities {
               coloured = 0;
   std::optional<ShaderPlace> first_nonfinite, first_outside;
   std::size_t hard_calls = 0, hard_nonfinite = 0;
+  std::size_t below_calls = 0, below_nonfinite = 0, below_lit = 0;
 };
 
 struct ShaderHalf {

@@ -40,8 +40,8 @@ void add_pictures(const Plan& plan, Judge& judge, Check& check) {
         std::ranges::fill(pair.model.pixel(x, y), float(judge.model(i)));
       }
   }
+  check.curve.degrees = plan.arc_degrees;
   for (std::size_t i = 0; i < plan.arc.count; ++i) {
-    check.curve.degrees.push_back(-90 + 180 * double(i) / double(plan.arc.count - 1));
     check.curve.theirs.push_back(judge.theirs(plan.arc.begin + i));
     check.curve.model.push_back(judge.model(plan.arc.begin + i));
   }

@@ -9,7 +9,7 @@
 namespace lobelia::shader_check {
 namespace {
 
-constexpr std::size_t kDomainPoints = 600, kArcPoints = 721;
+constexpr std::size_t kDomainPoints = 600, kPointsBelow = 100;
 constexpr double kIncidences[] = {0, 45, 75};
 /// Where L + V is shorter, a rounding of the vectors turns H (docs/export.md).
 constexpr double kNearlyOpposite = 0.2, kMoreWhereOpposite = 10;
@@ -29,7 +29,12 @@ Plan judged_plan(const Highlight& highlight, const std::vector<double>& exponent
     plan.domain.count += plan.add(domain_points(highlight, n, kDomainPoints)).count;
   plan.hard.begin = plan.points.size();
   for (const double n : exponents) plan.hard.count += plan.add(hard_points(n)).count;
-  plan.arc = plan.add(arc_points(shown_exponent, kArcPoints));
+  plan.below.begin = plan.points.size();
+  for (const double n : exponents)
+    plan.below.count += plan.add(points_below(highlight, n, kPointsBelow)).count;
+  Arc arc = arc_points(shown_exponent);
+  plan.arc = plan.add(arc.points);
+  plan.arc_degrees = std::move(arc.degrees);
   for (const double degrees : kLightDegrees)
     plan.spheres.push_back(plan.add(sphere_points(degrees, shown_exponent, kSphereSize)));
   return plan;
@@ -66,6 +71,14 @@ void Judge::add_errors(const Plan::Part& part, std::map<double, records::ShaderE
   for (std::size_t i = part.begin; i < part.begin + part.count; ++i) {
     const double n = plan_.points[i].exponent, peak = coefficients_.at(n), value = theirs(i);
     const Geometry geometry(plan_.points[i]);
+    if (!is_defined(geometry)) {
+      // At the silhouette a rounding decides on which side the eye is.
+      if (geometry.n_dot_v >= 0) continue;
+      ++odd.below_calls;
+      odd.below_nonfinite += values_[i].written && !std::isfinite(value);
+      odd.below_lit += std::isfinite(value) && value != 0;
+      continue;
+    }
     ++odd.calls;
     if (!values_[i].written) {
       ++odd.unwritten;
@@ -86,7 +99,8 @@ void Judge::add_errors(const Plan::Part& part, std::map<double, records::ShaderE
     const double expected = model(i);
     // In units of what is allowed there, so that the allowance is one number for an exponent.
     const double scale = geometry.half_length < kNearlyOpposite ? kMoreWhereOpposite : 1;
-    const double of_peak = std::abs(value - expected) / peak / scale;
+    // With shadowing the model's highlight is higher than its coefficient towards grazing.
+    const double of_peak = std::abs(value - expected) / std::max(peak, expected) / scale;
     if (expected == 0 && of_peak > error.allowed_of_peak) {
       ++odd.outside_support;
       if (!odd.first_outside) odd.first_outside = place(i);
@@ -102,6 +116,7 @@ void Judge::judge(records::ShaderCheck& record) {
   std::map<double, records::ShaderError> worst;
   records::ShaderOddities& odd = record.oddities;
   add_errors(plan_.domain, worst, odd);
+  add_errors(plan_.below, worst, odd);
   add_errors(plan_.arc, worst, odd);
   for (const Plan::Part& sphere : plan_.spheres) add_errors(sphere, worst, odd);
   for (std::size_t i = plan_.hard.begin; i < plan_.hard.begin + plan_.hard.count; ++i) {
@@ -118,20 +133,12 @@ void Judge::judge(records::ShaderCheck& record) {
 
 records::ShaderExplanation Judge::explanation(const records::ShaderOddities& odd,
                                               bool of_roughness) {
-  Observed observed;
-  bool is_zero = true;
+  Observed observed{{}, {}, odd.calls, odd.nan};
   for (std::size_t i = plan_.domain.begin; i < plan_.domain.begin + plan_.domain.count; ++i) {
     observed.points.push_back(plan_.points[i]);
     observed.values.push_back(theirs(i));
-    is_zero = is_zero && theirs(i) == 0;
   }
-  if (!is_zero && odd.nan + odd.infinite < odd.calls)
-    return explain(highlight_, observed, of_roughness);
-  records::ShaderExplanation found;
-  found.mistakes = {is_zero ? "zero" : "no-number"};
-  found.sentence = is_zero ? "it is 0 in every direction" : "it is no finite number anywhere";
-  found.complete = true;
-  return found;
+  return explain(highlight_, observed, of_roughness);
 }
 
 }  // namespace lobelia::shader_check

@@ -22,8 +22,9 @@ struct Plan {
   struct Part {
     std::size_t begin = 0, count = 0;
   };
-  Part domain, hard, arc;
-  std::vector<Part> spheres;  ///< by kLightDegrees
+  Part domain, hard, below, arc;
+  std::vector<double> arc_degrees;  ///< of the normal from the half vector
+  std::vector<Part> spheres;        ///< by kLightDegrees
   struct HemispherePart {
     Part part;
     double exponent, degrees;
@@ -54,7 +55,7 @@ class Judge {
 
  private:
   records::ShaderPlace place(std::size_t i);
-  /// Compares every direction of a part, but for the edges.
+  /// Compares every direction of a part with the model where it is defined, but for the edges.
   void add_errors(const Plan::Part& part, std::map<double, records::ShaderError>& worst,
                   records::ShaderOddities& odd);
 

@@ -4,119 +4,234 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "base/pictures/colour.hpp"
-#include "base/pictures/half.hpp"
-#include "renderer/models/smith.hpp"
 
 namespace lobelia::shader_check {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 bool has_cosine(const Highlight& h) { return info(h.model).applies_cosine; }
 bool has_shadowing(const Highlight& h) { return info(h.model).has_shadowing; }
+bool is_distribution(const Highlight& h) {
+  return info(h.model).normalised != NormalisedQuantity::kRadiance;
+}
+bool is_unshadowed_distribution(const Highlight& h) {
+  return is_distribution(h) && !has_shadowing(h);
+}
 bool has_no_cosine(const Highlight& h) { return !has_cosine(h); }
 bool is_mirror(const Highlight& h) { return info(h.model).angle == LobeAngle::kReflection; }
 bool is_half(const Highlight& h) { return !is_mirror(h); }
 
-std::vector<Mistake> make_mistakes() {
-  using enum Part;
-  using Behind = Formula::Behind;
-  std::vector<Mistake> all{
-      {"cosine-missing", kCosine, "the cosine N.L is missing", has_cosine,
-       [](Formula& f, double) { f.cosines = 0; }},
-      {"cosine-twice", kCosine, "the cosine N.L is applied twice", has_cosine,
-       [](Formula& f, double) { f.cosines = 2; }},
-      {"cosine-applied", kCosine, "the cosine N.L is applied, which this model does not have",
-       has_no_cosine, [](Formula& f, double) { f.cosines = 1; }},
-      {"shadowing-missing", kCosine,
-       "the shadowing is missing: the geometry term is (N.L)(N.V), which cancels", has_shadowing,
-       [](Formula& f, double) { f.has_shadowing = false; }},
-      {"light-behind", kBehind,
-       "light leaks through from behind: there is no test of N.L > 0 or the like", nullptr,
-       [](Formula& f, double) { f.behind = Behind::kSigned; }},
-      {"abs-cosine", kBehind,
-       "abs(N.L) is used where max(N.L, 0) is expected, so light leaks through from behind",
-       nullptr, [](Formula& f, double) { f.behind = Behind::kAbsolute; }},
-      {"half-vector-not-normalised", kAngle, "H is not normalised: N.(L + V) is used", is_half,
-       [](Formula& f, double) {
-         f.lobe_cosine = [](const Geometry& g) { return g.n_dot_h * g.half_length; };
-       }},
-      {"half-vector-halved", kAngle, "H is (L + V) / 2, which is not normalised", is_half,
-       [](Formula& f, double) {
-         f.lobe_cosine = [](const Geometry& g) { return 0.5 * g.n_dot_h * g.half_length; };
-       }},
-      {"half-vector-sign", kAngle, "H is made of L - V: one of the directions points the wrong way",
-       is_half,
-       [](Formula& f, double) {
-         f.lobe_cosine = [](const Geometry& g) { return g.n_dot_difference; };
-       }},
-      {"half-vector-sign", kAngle, "H is made of V - L: one of the directions points the wrong way",
-       is_half,
-       [](Formula& f, double) {
-         f.lobe_cosine = [](const Geometry& g) { return -g.n_dot_difference; };
-       }},
-      {"mirror-for-half-vector", kAngle, "R.L is used where N.H is expected", is_half,
-       [](Formula& f, double) { f.angle = LobeAngle::kReflection; }},
-      {"half-vector-for-mirror", kAngle, "N.H is used where R.L is expected", is_mirror,
-       [](Formula& f, double) { f.angle = LobeAngle::kHalfVector; }},
-      {"reflect-sign", kAngle,
-       "reflect has the wrong sign: -R.L is used where R.L is expected (reflect takes a direction "
-       "towards the surface)",
-       is_mirror,
-       [](Formula& f, double) { f.lobe_cosine = [](const Geometry& g) { return -g.mirror; }; }},
-      {"abs-mirror", kAngle, "abs(R.L) is used where max(R.L, 0) is expected", is_mirror,
-       [](Formula& f, double) { f.mirrored = true; }},
-      {"light-for-half-vector", kAngle, "N.L is used in the lobe", nullptr,
-       [](Formula& f, double) { f.lobe_cosine = [](const Geometry& g) { return g.n_dot_l; }; }},
-      {"eye-for-half-vector", kAngle, "N.V is used in the lobe", nullptr,
-       [](Formula& f, double) { f.lobe_cosine = [](const Geometry& g) { return g.n_dot_v; }; }},
-      {"eye-and-half-vector", kAngle, "V.H is used in the lobe", nullptr,
-       [](Formula& f, double) { f.lobe_cosine = [](const Geometry& g) { return g.v_dot_h; }; }},
-      {"light-and-eye", kAngle, "L.V is used in the lobe", nullptr,
-       [](Formula& f, double) { f.lobe_cosine = [](const Geometry& g) { return g.l_dot_v; }; }},
-      {"eye-cosine", kCosine, "N.V is used where the cosine N.L is expected", has_cosine,
-       [](Formula& f, double) { f.factor = [](const Geometry& g) { return g.n_dot_v; }; }},
-      {"half-vector-cosine", kCosine, "N.H is used where the cosine N.L is expected", has_cosine,
-       [](Formula& f, double) { f.factor = [](const Geometry& g) { return g.n_dot_h; }; }},
-      {"over-eye-cosine", kCosine, "it is divided by N.V", has_cosine,
-       [](Formula& f, double) {
-         f.factor = [](const Geometry& g) { return g.n_dot_l / g.n_dot_v; };
-       }},
-      {"no-geometry-term", kCosine,
-       "it is divided by (N.L)(N.V), as a microfacet model with a geometry term", has_cosine,
-       [](Formula& f, double) { f.factor = [](const Geometry& g) { return 1 / g.n_dot_v; }; }},
-      {"fresnel", kCosine, "a Fresnel factor of F0 = 0.04 is in it", has_cosine,
-       [](Formula& f, double) {
-         f.factor = [](const Geometry& g) {
-           return g.n_dot_l * (0.04 + 0.96 * std::pow(1 - g.v_dot_h, 5));
-         };
-       }},
-      {"half-float-s", kRounding, "s is a half float", nullptr,
-       [](Formula& f, double) { f.half = Formula::Half::kS; }},
-      {"half-float-cosine", kRounding, "the cosine of the lobe is a half float", nullptr,
-       [](Formula& f, double) { f.half = Formula::Half::kCosine; }},
+using Mistakes = std::vector<Mistake>;
+
+void add_angles(Mistakes& all) {
+  const auto add = [&](const char* id, const char* words, bool (*applies)(const Highlight&),
+                       double (*cosine)(const Geometry&)) {
+    all.push_back({id, Part::kAngle, words, applies,
+                   [cosine](Formula& f, double) { f.lobe_cosine = cosine; }});
   };
-  const auto add_exponent = [&](const std::string& used, std::function<double(double n)> rule) {
-    all.push_back({"exponent", kExponent, used + " is used where n is expected", nullptr,
+  add("half-vector-not-normalised", "H is not normalised: N.(L + V) is used", is_half,
+      [](const Geometry& g) { return g.n_dot_h * g.half_length; });
+  add("half-vector-halved", "H is (L + V) / 2, which is not normalised", is_half,
+      [](const Geometry& g) { return 0.5 * g.n_dot_h * g.half_length; });
+  add("half-vector-sign", "H is made of L - V: one of the directions points the wrong way", is_half,
+      [](const Geometry& g) { return g.n_dot_difference; });
+  add("half-vector-sign", "H is made of V - L: one of the directions points the wrong way", is_half,
+      [](const Geometry& g) { return -g.n_dot_difference; });
+  all.push_back({"mirror-for-half-vector", Part::kAngle, "R.L is used where N.H is expected",
+                 is_half, [](Formula& f, double) { f.angle = LobeAngle::kReflection; }});
+  all.push_back({"half-vector-for-mirror", Part::kAngle, "N.H is used where R.L is expected",
+                 is_mirror, [](Formula& f, double) { f.angle = LobeAngle::kHalfVector; }});
+  add("reflect-sign",
+      "reflect has the wrong sign: -R.L is used where R.L is expected (reflect takes a direction "
+      "towards the surface)",
+      is_mirror, [](const Geometry& g) { return -g.mirror; });
+  all.push_back({"abs-mirror", Part::kAngle, "abs(R.L) is used where max(R.L, 0) is expected",
+                 is_mirror, [](Formula& f, double) { f.mirrored = true; }});
+  add("light-for-half-vector", "N.L is used in the lobe", nullptr,
+      [](const Geometry& g) { return g.n_dot_l; });
+  add("eye-for-half-vector", "N.V is used in the lobe", nullptr,
+      [](const Geometry& g) { return g.n_dot_v; });
+  add("eye-and-half-vector", "V.H is used in the lobe", nullptr,
+      [](const Geometry& g) { return g.v_dot_h; });
+  add("light-and-eye", "L.V is used in the lobe", nullptr,
+      [](const Geometry& g) { return g.l_dot_v; });
+  add("lobe-missing", "there is no lobe: it does not depend on the eye", nullptr,
+      [](const Geometry&) { return 1.0; });
+}
+
+void add_directions(Mistakes& all) {
+  const auto add = [&](const char* id, const char* words, Reversed which) {
+    all.push_back({id, Part::kDirection, words, nullptr,
+                   [which](Formula& f, double) { f.reversed = which; }});
+  };
+  add("light-reversed", "L is reversed: it points to the surface", Reversed::kLight);
+  add("normal-reversed", "N is reversed: it points into the surface", Reversed::kNormal);
+  add("eye-reversed", "V is reversed: it points to the surface", Reversed::kEye);
+}
+
+void add_behind(Mistakes& all) {
+  using enum Formula::Behind;
+  const auto add = [&](const char* id, const char* words, bool (*applies)(const Highlight&),
+                       Formula::Behind behind, bool mirrored = false) {
+    all.push_back({id, Part::kBehind, words, applies, [behind, mirrored](Formula& f, double) {
+                     f.behind = behind;
+                     f.mirrored = f.mirrored || mirrored;
+                   }});
+  };
+  add("light-behind", "light leaks through from behind: there is no test of N.L > 0 or the like",
+      nullptr, kSigned);
+  add("abs-cosine",
+      "abs(N.L) is used where max(N.L, 0) is expected, so light leaks through from behind",
+      has_cosine, kAbsolute);
+  add("two-sided",
+      "it is two-sided: abs() is used of N.L and of the lobe's cosine, so light leaks through from "
+      "behind",
+      nullptr, kAbsolute, true);
+  add("test-reversed", "the test of N.L is reversed: it is lit from behind alone", nullptr,
+      kReversed);
+}
+
+void add_cosines(Mistakes& all) {
+  const auto add = [&](const char* id, const char* words, bool (*applies)(const Highlight&),
+                       double (*cosine)(double, const Geometry&)) {
+    all.push_back(
+        {id, Part::kCosine, words, applies, [cosine](Formula& f, double) { f.cosine = cosine; }});
+  };
+  add("cosine-missing", "the cosine N.L is missing", has_cosine, nullptr);
+  add("cosine-twice", "the cosine N.L is applied twice", has_cosine,
+      [](double light, const Geometry&) { return light * light; });
+  add("cosine-applied", "the cosine N.L is applied, which this model does not have", has_no_cosine,
+      [](double light, const Geometry&) { return light; });
+  add("eye-cosine", "N.V is used where the cosine N.L is expected", has_cosine,
+      [](double, const Geometry& g) { return g.n_dot_v; });
+  add("half-vector-cosine", "N.H is used where the cosine N.L is expected", has_cosine,
+      [](double, const Geometry& g) { return g.n_dot_h; });
+  add("half-vector-cosine", "V.H is used where the cosine N.L is expected", has_cosine,
+      [](double, const Geometry& g) { return g.v_dot_h; });
+  add("cosine-root", "the square root of N.L is used", nullptr,
+      [](double light, const Geometry&) { return std::sqrt(std::max(light, 0.0)); });
+  add("cosine-smoothstep", "smoothstep(0, 1, N.L) is used", nullptr,
+      [](double light, const Geometry&) {
+        const double t = std::clamp(light, 0.0, 1.0);
+        return t * t * (3 - 2 * t);
+      });
+  add("cosine-wrapped", "N.L is wrapped: 0.5 N.L + 0.5 is used", nullptr,
+      [](double light, const Geometry&) { return 0.5 * light + 0.5; });
+  add("cosine-wrapped", "N.L is wrapped: (0.5 N.L + 0.5)^2 is used", nullptr,
+      [](double light, const Geometry&) { return std::pow(0.5 * light + 0.5, 2); });
+}
+
+double alpha_of(double exponent) { return std::sqrt(alpha_squared(exponent)); }
+double roughness_of(double exponent) { return std::sqrt(alpha_of(exponent)); }
+
+/// The two sides of a separable term of Schlick's form, over (N.L)(N.V).
+double schlick(double l, double v, double k) { return 1 / ((l * (1 - k) + k) * (v * (1 - k) + k)); }
+
+void add_geometry_terms(Mistakes& all) {
+  using G = const Geometry&;
+  const auto add = [&](const char* id, const std::string& words, bool (*applies)(const Highlight&),
+                       double (*term)(double, double, G, double)) {
+    all.push_back({id, Part::kGeometryTerm, words, applies,
+                   [term](Formula& f, double) { f.geometry_term = term; }});
+  };
+  add("shadowing-missing",
+      "the shadowing is missing: the geometry term is (N.L)(N.V), which cancels", has_shadowing,
+      nullptr);
+  add("over-eye-cosine", "it is divided by N.V", has_cosine,
+      [](double, double v, G, double) { return 1 / v; });
+  add("no-geometry-term", "it is divided by (N.L)(N.V), as a microfacet model with a geometry term",
+      has_cosine, [](double l, double v, G, double) { return 1 / (l * v); });
+  const std::string other = "the geometry term is ";
+  add("geometry-term", other + "height-correlated Smith", is_unshadowed_distribution, smith_term);
+  add("geometry-term", other + "separable Smith", is_distribution,
+      [](double l, double v, G, double n) {
+        const double a = alpha_squared(n);
+        const auto side = [&](double c) { return 2 / (c + std::sqrt(a + (1 - a) * c * c)); };
+        return side(l) * side(v);
+      });
+  add("geometry-term", other + "the linear approximation of Smith", is_distribution,
+      [](double l, double v, G, double n) {
+        const double a = alpha_of(n);
+        return 2 / (2 * l * v * (1 - a) + (l + v) * a);
+      });
+  add("geometry-term", other + "Smith with roughness for alpha", is_distribution,
+      [](double l, double v, G g, double n) { return smith_term(l, v, g, 2 / alpha_of(n) - 2); });
+  add("geometry-term", other + "Smith with alpha^2 for alpha", is_distribution,
+      [](double l, double v, G g, double n) {
+        return smith_term(l, v, g, 2 / std::pow(alpha_squared(n), 2) - 2);
+      });
+  add("geometry-term", other + "Schlick-GGX with k = (roughness + 1)^2 / 8, of direct light",
+      is_distribution, [](double l, double v, G, double n) {
+        return schlick(l, v, std::pow(roughness_of(n) + 1, 2) / 8);
+      });
+  add("geometry-term", other + "Schlick-GGX with k = roughness^2 / 2, of image-based light",
+      is_distribution,
+      [](double l, double v, G, double n) { return schlick(l, v, alpha_of(n) / 2); });
+  add("geometry-term", other + "Schlick-GGX with k = (alpha + 1)^2 / 8: alpha for roughness",
+      is_distribution, [](double l, double v, G, double n) {
+        return schlick(l, v, std::pow(alpha_of(n) + 1, 2) / 8);
+      });
+  add("geometry-term", other + "Schlick-GGX with k = alpha^2 / 2: alpha for roughness",
+      is_distribution,
+      [](double l, double v, G, double n) { return schlick(l, v, alpha_squared(n) / 2); });
+  add("geometry-term", other + "Schlick's with k = alpha sqrt(2 / pi)", is_distribution,
+      [](double l, double v, G, double n) {
+        return schlick(l, v, alpha_of(n) * std::sqrt(2 / std::numbers::pi));
+      });
+  add("geometry-term", other + "Kelemen's, over (V.H)^2", is_distribution,
+      [](double, double, G g, double) { return 1 / (g.v_dot_h * g.v_dot_h); });
+  add("geometry-term", other + "Neumann's, over max(N.L, N.V)", is_distribution,
+      [](double l, double v, G, double) { return 1 / std::max(l, v); });
+  add("geometry-term", other + "Ward's, over sqrt((N.L)(N.V))", is_distribution,
+      [](double l, double v, G, double) { return 1 / std::sqrt(l * v); });
+  add("geometry-term", other + "Cook and Torrance's", is_distribution,
+      [](double l, double v, G g, double) {
+        return std::min(1.0, 2 * g.n_dot_h * std::min(l, v) / g.v_dot_h) / (l * v);
+      });
+}
+
+/// Floors of the denominator 4 (N.L)(N.V), of a model with shadowing, and of one that has the denominator by mistake.
+void add_guards(Mistakes& all) {
+  const auto add = [&](const std::string& what, double (*guard)(double)) {
+    all.push_back({"denominator-floor", Part::kGuard, fmt::format("the denominator is {}", what),
+                   has_shadowing, [guard](Formula& f, double) { f.guard = guard; }});
+    all.push_back({"denominator-floor", Part::kGeometryTerm,
+                   fmt::format("it is divided by {}, without a geometry term", what),
+                   is_unshadowed_distribution, [guard](Formula& f, double) {
+                     f.geometry_term = [](double l, double v, const Geometry&, double) {
+                       return 1 / (l * v);
+                     };
+                     f.guard = guard;
+                   }});
+  };
+  add("max(4 (N.L)(N.V), 0.001)", [](double p) { return std::max(p, 1e-3); });
+  add("max(4 (N.L)(N.V), 0.0001)", [](double p) { return std::max(p, 1e-4); });
+  add("max(4 (N.L)(N.V), 0.01)", [](double p) { return std::max(p, 1e-2); });
+  add("max(4 (N.L)(N.V), 0.75)", [](double p) { return std::max(p, 0.75); });
+  add("4 (N.L)(N.V) + 0.0001", [](double p) { return p + 1e-4; });
+  add("4 (N.L)(N.V) + 0.001", [](double p) { return p + 1e-3; });
+  add("4 (N.L)(N.V) + 0.05", [](double p) { return p + 0.05; });
+}
+
+void add_exponents(Mistakes& all) {
+  const auto add = [&](const std::string& used, double (*rule)(double n)) {
+    all.push_back({"exponent", Part::kExponent, used + " is used where n is expected", nullptr,
                    [rule](Formula& f, double n) { f.exponent = rule(n); }});
   };
-  add_exponent("n / 2", [](double n) { return n / 2; });
-  add_exponent("2 n", [](double n) { return 2 * n; });
-  add_exponent("n / 4", [](double n) { return n / 4; });
-  add_exponent("4 n", [](double n) { return 4 * n; });
-  add_exponent("n + 1", [](double n) { return n + 1; });
-  add_exponent("n - 1", [](double n) { return n - 1; });
-  add_exponent("n + 2", [](double n) { return n + 2; });
-  add_exponent("n^2", [](double n) { return n * n; });
-  add_exponent("sqrt(n)", [](double n) { return std::sqrt(n); });
-  const auto add_rule = [&](const std::string& used, std::function<double(double alpha)> rule) {
-    all.push_back(
-        {"exponent-of-roughness", kExponent,
-         fmt::format("the exponent is {}, where 2 / alpha^2 - 2 is expected", used), nullptr,
-         [rule](Formula& f, double n) { f.exponent = rule(std::sqrt(2 / (n + 2))); }, true});
+  add("n / 2", [](double n) { return n / 2; });
+  add("2 n", [](double n) { return 2 * n; });
+  add("n / 4", [](double n) { return n / 4; });
+  add("4 n", [](double n) { return 4 * n; });
+  add("n + 1", [](double n) { return n + 1; });
+  add("n - 1", [](double n) { return n - 1; });
+  add("n + 2", [](double n) { return n + 2; });
+  add("n^2", [](double n) { return n * n; });
+  add("sqrt(n)", [](double n) { return std::sqrt(n); });
+  add("128 n", [](double n) { return 128 * n; });
+  const auto add_rule = [&](const std::string& used, double (*rule)(double alpha)) {
+    all.push_back({"exponent-of-roughness", Part::kExponent,
+                   fmt::format("the exponent is {}, where 2 / alpha^2 - 2 is expected", used),
+                   nullptr, [rule](Formula& f, double n) { f.exponent = rule(alpha_of(n)); },
+                   true});
   };
   add_rule("2 / alpha^2", [](double a) { return 2 / (a * a); });
   add_rule("2 / alpha - 2 (alpha is not squared)", [](double a) { return 2 / a - 2; });
@@ -131,127 +246,39 @@ std::vector<Mistake> make_mistakes() {
            [](double a) { return std::exp2(10 * (1 - std::sqrt(a)) + 1); });
   add_rule("128 (1 - roughness)", [](double a) { return 128 * (1 - std::sqrt(a)); });
   add_rule("1000 (1 - roughness)", [](double a) { return 1000 * (1 - std::sqrt(a)); });
+}
+
+Mistakes make_mistakes() {
+  Mistakes all;
+  add_cosines(all);
+  add_behind(all);
+  add_angles(all);
+  add_directions(all);
+  add_geometry_terms(all);
+  add_guards(all);
+  all.push_back({"half-float-s", Part::kRounding, "s is a half float", nullptr,
+                 [](Formula& f, double) { f.half = Formula::Half::kS; }});
+  all.push_back({"half-float-cosine", Part::kRounding, "the cosine of the lobe is a half float",
+                 nullptr, [](Formula& f, double) { f.half = Formula::Half::kCosine; }});
+  add_exponents(all);
   for (const LobeId& lobe : all_lobes())
-    all.push_back({"lobe", kLobe, fmt::format("its lobe is {}", info(lobe).name), nullptr,
+    all.push_back({"lobe", Part::kLobe, fmt::format("its lobe is {}", info(lobe).name), nullptr,
                    [lobe](Formula& f, double) { f.lobe = lobe; }});
   return all;
 }
 
-std::vector<CoefficientMistake> make_coefficients() {
-  std::vector<CoefficientMistake> all;
-  const auto add_factor = [&](const char* id, const std::string& words, double factor) {
-    all.push_back(
-        {id, words, [factor](const Highlight&, double own, double) { return own * factor; }});
-  };
-  add_factor("pi-missing", "a division by pi is missing", kPi);
-  add_factor("pi-twice", "it is divided by pi once too often", 1 / kPi);
-  add_factor("two-missing", "a division by 2 is missing", 2);
-  add_factor("two-twice", "it is divided by 2 once too often", 0.5);
-  add_factor("four-missing", "a division by 4 is missing", 4);
-  add_factor("four-twice", "it is divided by 4 once too often", 0.25);
-  add_factor("two-pi-missing", "a division by 2 pi is missing", 2 * kPi);
-  add_factor("four-pi-missing", "a division by 4 pi is missing", 4 * kPi);
-  add_factor("eight-pi-missing", "a division by 8 pi is missing", 8 * kPi);
-  const auto add_constant = [&](const char* id, const std::string& words, double value) {
-    all.push_back({id, words, [value](const Highlight&, double, double) { return value; }});
-  };
-  add_constant("coefficient-missing", "there is no coefficient", 1);
-  add_constant("coefficient-constant", "the coefficient is 1 / pi, whatever n", 1 / kPi);
-  for (const int added : {1, 2, 8, 0, 4})
-    for (const auto& [text, divisor] :
-         {std::pair{" / (8 pi)", 8 * kPi}, std::pair{" / (2 pi)", 2 * kPi},
-          std::pair{" / (4 pi)", 4 * kPi}, std::pair{" / pi", kPi}, std::pair{" / 8", 8.0},
-          std::pair{" / 2", 2.0}, std::pair{" / 4", 4.0}, std::pair{"", 1.0}})
-      all.push_back({"coefficient", (added == 0 ? "n" : fmt::format("(n + {})", added)) + text,
-                     [added, divisor = divisor](const Highlight&, double, double n) {
-                       return (n + added) / divisor;
-                     }});
-  for (const ModelId model : all_models())
-    all.push_back({"coefficient", fmt::format("the coefficient of {}", info(model).name),
-                   [model](const Highlight& h, double, double n) {
-                     return radiance_coefficient({model, h.lobe, Normalisation::kExact, n});
-                   }});
-  return all;
-}
-
-double clamped_srgb(double v) { return srgb_encoded(std::clamp(v, 0.0, 1.0)); }
-
-constexpr OutputMistake kOutputs[] = {
-    {"clamped", "the result is clamped to 1", [](double v) { return std::min(v, 1.0); }},
-    {"srgb", "the result is encoded as sRGB, where light is expected", clamped_srgb},
-    {"srgb", "the result is encoded as sRGB, where light is expected", srgb_encoded},
-    {"srgb-twice", "the result is encoded as sRGB twice",
-     [](double v) { return clamped_srgb(clamped_srgb(v)); }},
-    {"srgb-twice", "the result is encoded as sRGB twice",
-     [](double v) { return srgb_encoded(srgb_encoded(v)); }},
-    {"srgb-decoded", "the result is decoded as sRGB, as if it were no light",
-     [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }},
-    {"gamma", "the result has a gamma of 1 / 2.2",
-     [](double v) { return std::pow(std::max(v, 0.0), 1 / 2.2); }},
-    {"gamma", "the result has a gamma of 1 / 2.2, and is clamped to 1",
-     [](double v) { return std::pow(std::clamp(v, 0.0, 1.0), 1 / 2.2); }},
-    {"square-root", "the result is a square root",
-     [](double v) { return std::sqrt(std::max(v, 0.0)); }},
-    {"tone-mapped", "the result is tone-mapped, v / (1 + v)", [](double v) { return v / (1 + v); }},
-    {"tone-mapped", "the result is tone-mapped, 1 - exp(-v)",
-     [](double v) { return -std::expm1(-v); }},
-};
-
 }  // namespace
 
 std::span<const Mistake> mistakes() {
-  static const std::vector<Mistake> all = make_mistakes();
+  static const Mistakes all = make_mistakes();
   return all;
 }
-
-std::span<const CoefficientMistake> coefficient_mistakes() {
-  static const std::vector<CoefficientMistake> all = make_coefficients();
-  return all;
-}
-
-std::span<const OutputMistake> output_mistakes() { return kOutputs; }
 
 Formula formula_of(const Highlight& highlight, double n, std::span<const Mistake* const> made) {
-  Formula formula{.angle = info(highlight.model).angle,
-                  .lobe = highlight.lobe,
-                  .cosines = info(highlight.model).applies_cosine ? 1 : 0,
-                  .has_shadowing = info(highlight.model).has_shadowing,
-                  .exponent = n};
+  Formula formula = own_formula(highlight, n);
   for (const Mistake* mistake : made) mistake->change(formula, n);
   formula.exponent = std::clamp(formula.exponent, kMinExponent, kMaxExponent);
   return formula;
-}
-
-double shape_value(const Formula& formula, const Geometry& g) {
-  using Behind = Formula::Behind;
-  if (formula.behind == Behind::kBlack && g.n_dot_l <= 0) return 0;
-  double s = formula.angle == LobeAngle::kReflection ? g.s_mirror : g.s_half;
-  if (formula.lobe_cosine) s = 1 - formula.lobe_cosine(g);
-  if (formula.mirrored) s = 1 - std::abs(1 - s);
-  if (formula.half == Formula::Half::kS) s = rounded_to_half(s);
-  if (formula.half == Formula::Half::kCosine) s = 1 - rounded_to_half(1 - s);
-  double lobe = 0;
-  // A vector that is not normalised may have a cosine over 1.
-  if (s < 0)
-    lobe = std::pow(1 - s, formula.exponent);
-  else if (s < 1)
-    lobe = lobe_value(formula.lobe, s, formula.exponent);
-  const double light = formula.behind == Behind::kAbsolute ? std::abs(g.n_dot_l) : g.n_dot_l;
-  if (formula.has_shadowing)
-    lobe *= HWY_NAMESPACE::smith_factor(alpha_squared(formula.exponent), std::abs(g.n_dot_l),
-                                        std::abs(g.n_dot_v));
-  if (formula.factor) return lobe * formula.factor(g);
-  return lobe * std::pow(light, formula.cosines);
-}
-
-std::string own_coefficient_text(const Highlight& highlight) {
-  if (info(highlight.lobe).name != "cosine") return "the model's own";
-  std::string text = formulas(highlight.model).exact_cosine;
-  // A distribution's radiance has a quarter of it.
-  constexpr std::string_view kTwoPi = "/ (2 pi)";
-  if (info(highlight.model).normalised == NormalisedQuantity::kRadiance) return text;
-  if (!text.ends_with(kTwoPi)) return text + " / 4";
-  return text.substr(0, text.size() - kTwoPi.size()) + "/ (8 pi)";
 }
 
 }  // namespace lobelia::shader_check

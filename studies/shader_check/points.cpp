@@ -15,6 +15,8 @@ Point rounded(Vec3 normal, Vec3 to_eye, Vec3 to_light, double exponent) {
   return {rounded(normal), rounded(to_eye), rounded(to_light), double(float(exponent))};
 }
 
+Vec3 mirrored_below(Vec3 v, Vec3 normal) { return v - 2 * dot(v, normal) * normal; }
+
 class RandomPoints {
  public:
   RandomPoints(const Highlight& highlight, double exponent)
@@ -26,7 +28,7 @@ class RandomPoints {
     const double kind = uniform_(random_);
     if (kind < 1.0 / 6) {
       light = above(normal, 1);
-      light = light - 2 * dot(light, normal) * normal;
+      light = mirrored_below(light, normal);
     } else if (kind < 0.5) {
       light = above(normal, uniform_(random_) < 0.2 ? 0.05 : 1);
     } else {
@@ -34,7 +36,7 @@ class RandomPoints {
       const double width = std::min(1.5, (is_mirror_ ? 3.5 : 7) / std::sqrt(exponent_));
       const Vec3 mirrored = 2 * dot(normal, eye) * normal - eye;
       light = normalize(mirrored + width * uniform_(random_) * direction());
-      if (dot(light, normal) < 0) light = light - 2 * dot(light, normal) * normal;
+      if (dot(light, normal) < 0) light = mirrored_below(light, normal);
     }
     return rounded(normal, eye, light, exponent_);
   }
@@ -54,6 +56,9 @@ class RandomPoints {
   std::mt19937_64 random_{1};
   std::uniform_real_distribution<double> uniform_;
 };
+
+/// Nearer to the horizon, a rounding decides on which side the eye is.
+constexpr double kLeastEyeCosine = 1e-6;
 
 Vec3 in_plane(double radians) { return {std::sin(radians), 0, std::cos(radians)}; }
 
@@ -122,13 +127,24 @@ std::vector<Point> sphere_points(double degrees, double exponent, int size) {
   return points;
 }
 
-std::vector<Point> arc_points(double exponent, std::size_t count) {
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.push_back(rounded(in_plane((180 * double(i) / double(count - 1) - 60) * kRadians),
-                             {0, 0, 1}, in_plane(60 * kRadians), exponent));
+Arc arc_points(double exponent) {
+  constexpr double kLight = 60, kStep = 0.25;
+  Arc arc;
+  for (double normal = -kLight; normal < 90; normal += kStep) {
+    arc.points.push_back(
+        rounded(in_plane(normal * kRadians), {0, 0, 1}, in_plane(kLight * kRadians), exponent));
+    arc.degrees.push_back(normal - kLight / 2);
+  }
+  return arc;
+}
+
+std::vector<Point> points_below(const Highlight& highlight, double exponent, std::size_t count) {
+  std::vector<Point> points = domain_points(highlight, exponent, count);
+  for (Point& point : points) point.to_eye = mirrored_below(point.to_eye, point.normal);
   return points;
 }
+
+bool is_defined(const Geometry& geometry) { return geometry.n_dot_v > kLeastEyeCosine; }
 
 Hemisphere hemisphere_points(LobeAngle angle, double degrees, double exponent) {
   constexpr int kRings = 64, kSpokes = 32;

@@ -36,9 +36,18 @@ std::vector<Point> hard_points(double exponent);
 std::vector<Point> sphere_points(double degrees, double exponent, int size);
 bool is_sphere(int x, int y, int size);
 
-/// The plane of the eye and a light 60 degrees from it; the normal goes from 90 degrees on one side of the half vector to 90
-/// on the other.
-std::vector<Point> arc_points(double exponent, std::size_t count);
+/// The plane of the eye and a light 60 degrees from it; the normal goes from where the light sets to where the eye does.
+struct Arc {
+  std::vector<Point> points;
+  std::vector<double> degrees;  ///< of the normal from the half vector
+};
+Arc arc_points(double exponent);
+
+/// Directions with the eye below the surface, where no model is defined.
+std::vector<Point> points_below(const Highlight& highlight, double exponent, std::size_t count);
+
+/// Whether a model says anything there: the eye is above the surface. Behind the light it is 0.
+bool is_defined(const Geometry& geometry);
 
 /// Lights all over the hemisphere, for an eye at `degrees` from the normal, dense where a highlight is; with the solid
 /// angles by which a sum over them is the integral.

@@ -49,6 +49,11 @@ std::string oddities_text(const records::ShaderOddities& odd) {
   if (odd.hard_nonfinite > 0)
     text += fmt::format("  {} of {} hard cases, such as L = -V, are no finite number\n",
                         odd.hard_nonfinite, odd.hard_calls);
+  if (odd.below_nonfinite + odd.below_lit > 0)
+    text += fmt::format(
+        "  with the eye below the surface, which no model defines: {} of {} calls are not 0, {} are no "
+        "finite number\n",
+        odd.below_lit, odd.below_calls, odd.below_nonfinite);
   return text.empty() ? "" : "\nodd results\n" + text;
 }
 

@@ -1,6 +1,6 @@
 // lobelia check-shader as a user runs it, and its page in docs/.
 #include "base/words/text.hpp"
-#include "studies/shader_check/mistakes.hpp"
+#include "studies/shader_check/explain.hpp"
 #include "tests/json.hpp"
 #include "tests/program/run_lobelia.hpp"
 #include "tests/shaders/shader_runner.hpp"
@@ -165,11 +165,8 @@ TEST_F(CheckShaderCommand, RefusesInOneLine) {
 
 TEST(CheckShaderPage, ListsEveryMistakeByName) {
   const std::string page = tutorial();
-  std::set<std::string> names{"zero", "no-number", "float32-cosine"};
-  for (const auto& mistake : shader_check::mistakes()) names.emplace(mistake.id);
-  for (const auto& mistake : shader_check::coefficient_mistakes()) names.emplace(mistake.id);
-  for (const auto& mistake : shader_check::output_mistakes()) names.emplace(mistake.id);
-  for (const std::string& name : names) EXPECT_THAT(page, HasSubstr("`" + name + "`"));
+  for (const std::string_view name : shader_check::mistake_names())
+    EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", name)));
 }
 
 }  // namespace

@@ -8,9 +8,7 @@
 #include "renderer/export/names.hpp"
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
-#include "studies/shader_check/mistakes.hpp"
 #include "studies/shader_check/own_shader.hpp"
-#include "tests/more_samples.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/studies/planted_mistakes.hpp"
 #include "tests/test.hpp"
@@ -258,46 +256,6 @@ TEST_F(ShaderCheck, ThePageHasPicturesAndEscapesTheFilesName) {
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_EQ(page.find("<b>"), std::string::npos);
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
-}
-
-/// The value of a shader with the mistake, with no rounding but that of the result.
-shader_check::Observed observed_of(const Highlight& highlight,
-                                   const shader_check::Mistake& mistake) {
-  shader_check::Observed observed;
-  const shader_check::Mistake* const made[] = {&mistake};
-  for (const double n : shader_check::kUsualExponents) {
-    Highlight here = highlight;
-    here.exponent = n;
-    const double coefficient = radiance_coefficient(here);
-    const shader_check::Formula formula = shader_check::formula_of(highlight, n, made);
-    for (const shader_check::Point& point : shader_check::domain_points(highlight, n, 600)) {
-      observed.points.push_back(point);
-      observed.values.push_back(double(
-          float(coefficient * shader_check::shape_value(formula, shader_check::Geometry(point)))));
-    }
-  }
-  return observed;
-}
-
-TEST(Explain, FindsEachMistakeOfItsCatalogueInEveryModel) {
-  int found = 0;
-  std::size_t number = 0;
-  for (const ModelId model : all_models()) {
-    const Highlight highlight{model, *find_lobe("cosine")};
-    for (const shader_check::Mistake& mistake : shader_check::mistakes()) {
-      if ((mistake.applies && !mistake.applies(highlight)) || mistake.words == "its lobe is cosine")
-        continue;
-      if (is_left_out(number++)) continue;
-      const auto explanation =
-          shader_check::explain(highlight, observed_of(highlight, mistake), mistake.of_roughness);
-      EXPECT_TRUE(explanation.complete) << info(model).name << ": " << mistake.words;
-      // Or another that does the same, such as 2 / alpha^2 and n + 2.
-      EXPECT_EQ(explanation.mistakes.size(), 1u)
-          << info(model).name << ": " << mistake.words << ": " << explanation.sentence;
-      found += explanation.mistakes.size() == 1 && explanation.mistakes[0] == mistake.id;
-    }
-  }
-  EXPECT_GE(found, more_samples() == 1 ? 66 : 200);
 }
 
 }  // namespace

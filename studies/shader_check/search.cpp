@@ -1,0 +1,192 @@
+#include "studies/shader_check/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lobelia::shader_check {
+namespace {
+
+constexpr std::size_t kSome = 48;  // points of a sample at each exponent
+/// A sample is small: what fits all values may leave a little more of it.
+constexpr double kMoreOfASample = 1.5;
+/// Above it, float32 leaves nothing of a power of a cosine that a coefficient could be told from.
+constexpr double kMostExponent = 2e4;
+constexpr double kUnclear = 1e-2;  // the relative error of a coefficient that tells nothing
+/// Another candidate of the same cost is better if it leaves this share, and as good if it does not leave its inverse.
+constexpr double kFarLess = 0.3;
+
+bool is_far_off(const Left& left) { return left.most > kMoreOfASample; }
+
+}  // namespace
+
+bool Candidate::explains() const { return std::isfinite(score()); }
+
+std::vector<std::string_view> Candidate::ids() const {
+  std::vector<std::string_view> ids = coefficient.ids;
+  for (const Mistake* mistake : shape) ids.push_back(mistake->id);
+  if (fit.additions.ambient) ids.push_back("ambient");
+  if (fit.additions.diffuse) ids.push_back("diffuse");
+  for (const OutputStep* step : chain) ids.push_back(step->id);
+  return ids;
+}
+
+Searched::Searched(const Observed& observed)
+    : some{Samples({}, true), {}}, all{Samples({}, false), {}} {
+  std::vector<Group> groups = groups_of(observed);
+  is_half = are_half_floats(groups);
+  if (is_half) allow_half_floats(groups);
+  all.samples = Samples(std::move(groups), false);
+  some.samples = Samples(some_of(all.samples.groups(), kSome), true);
+}
+
+const std::vector<Radiances>& Searched::Values::of(const Chain& chain) {
+  const auto [at, is_new] = radiances.try_emplace(chain);
+  if (is_new) at->second = radiances_of(samples.groups(), chain);
+  return at->second;
+}
+
+Search::Search(const Highlight& highlight, Searched& values, bool of_roughness, bool other_lobes)
+    : highlight_(highlight), values_(values), names_(highlight) {
+  for (const Mistake& mistake : mistakes()) {
+    if (mistake.applies && !mistake.applies(highlight)) continue;
+    if (mistake.of_roughness && !of_roughness) continue;
+    if (mistake.part == Part::kLobe) {
+      const Mistake* const made[] = {&mistake};
+      if (!other_lobes || formula_of(highlight_, 1, made).lobe == highlight_.lobe) continue;
+    }
+    usable_.push_back(&mistake);
+  }
+  // The narrower explanation first: 2 / alpha^2 is n + 2.
+  std::ranges::stable_partition(usable_, &Mistake::of_roughness);
+}
+
+bool Search::has(const Shape& shape, Part part) const {
+  return std::ranges::any_of(shape, [&](const Mistake* one) { return one->part == part; });
+}
+
+const Mistake* Search::keep(Mistake mistake) { return &fitted_.emplace_back(std::move(mistake)); }
+
+std::vector<Formula> Search::formulas(const Shape& shape) const {
+  std::vector<Formula> all;
+  for (const Group& group : values_.all.samples.groups())
+    all.push_back(formula_of(highlight_, group.exponent, shape));
+  return all;
+}
+
+void Search::try_one_mistake() {
+  try_shape({});
+  for (const Mistake* one : usable_) try_shape({one});
+  try_additions({}, {});
+  try_fits({}, {}, true);
+  for (const OutputStep& step : output_steps()) try_shape({}, {&step});
+}
+
+void Search::try_two_mistakes() {
+  for (std::size_t i = 0; i < usable_.size(); ++i)
+    for (std::size_t j = i + 1; j < usable_.size(); ++j)
+      if (usable_[i]->part != usable_[j]->part) try_shape({usable_[i], usable_[j]});
+  for (const Mistake* one : usable_) {
+    try_additions({one}, {});
+    try_fits({one}, {}, one->part != Part::kExponent && one->part != Part::kLobe);
+  }
+  for (const OutputStep& step : output_steps()) {
+    for (const Mistake* one : usable_) try_shape({one}, {&step});
+    try_additions({}, {&step});
+    try_fits({}, {&step}, false);
+  }
+  for (const Chain& chain : chains_of_two()) try_shape({}, chain);
+}
+
+void Search::try_shape(const Shape& shape, const Chain& chain, Additions additions) {
+  const std::vector<Formula> formula = formulas(shape);
+  Searched::Values& some = values_.some;
+  const Fit of_some = shader_check::fit(some.samples.groups(), some.of(chain), formula,
+                                        some.samples.shapes(formula), additions);
+  Candidate candidate{highlight_, shape, chain, of_some, {}, {}, 0};
+  // Of those that explain nothing, only the nearest counts, and it is told by the simple ones.
+  const bool adds = additions.ambient || additions.diffuse;
+  const bool is_simple = shape.size() <= 1 && chain.empty() && !adds;
+  const bool off = is_far_off(of_some.left);
+  if (off && !is_simple) return;
+  if (off && best_ &&
+      (best_->explains() || of_some.left.most_of_peak > 2 * best_->fit.left.most_of_peak))
+    return;
+  Searched::Values& all = values_.all;
+  candidate.fit = shader_check::fit(all.samples.groups(), all.of(chain), formula,
+                                    all.samples.shapes(formula), additions);
+  // Light is added.
+  const Additions& found = candidate.fit.additions;
+  if ((additions.ambient && found.of_ambient <= 0) || (additions.diffuse && found.of_diffuse <= 0))
+    return;
+  name(candidate);
+  if (is_simple || candidate.explains()) keep(std::move(candidate));
+}
+
+void Search::try_additions(const Shape& shape, const Chain& chain) {
+  for (const bool only_lit : {false, true}) {
+    try_shape(shape, chain, {true, false, only_lit});
+    if (!only_lit) try_shape(shape, chain, {false, true, false});
+    try_shape(shape, chain, {true, true, only_lit});
+  }
+}
+
+void Search::try_fits(const Shape& shape, const Chain& chain, bool with_exponent) {
+  const auto with = [&](const Mistake* mistake) {
+    if (!mistake) return;
+    Shape more = shape;
+    more.push_back(mistake);
+    try_shape(more, chain);
+  };
+  if (!has(shape, Part::kFresnel)) with(fitted_fresnel(shape, chain));
+  if (!has(shape, Part::kBehind))
+    for (const Mistake* floor : fitted_floors(shape, chain)) with(floor);
+  if (with_exponent) with(fitted_exponent(shape));
+}
+
+void Search::name(Candidate& candidate) {
+  const std::vector<Formula> formula = formulas(candidate.shape);
+  const std::vector<Group>& groups = values_.all.samples.groups();
+  std::vector<FittedCoefficient> fitted;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const double n = groups[g].exponent, c = candidate.fit.coefficients[g];
+    const double error = 3 * candidate.fit.errors[g];
+    if (!candidate.fit.is_seen[g] || formula[g].exponent > kMostExponent || error > kUnclear)
+      continue;
+    fitted.push_back({n, formula[g].exponent, c, textbook_rounding(n) / 2 + error});
+    candidate.factors.push_back({n, c / names_.own(n)});
+  }
+  candidate.cost = double(candidate.shape.size() + candidate.chain.size()) +
+                   (candidate.fit.additions.ambient ? 1 : 0) +
+                   (candidate.fit.additions.diffuse ? 1 : 0);
+  if (!std::isfinite(candidate.fit.left.penalty())) return;
+  if (fitted.empty()) {
+    // A highlight that is not seen explains nothing.
+    candidate.fit.left.most = candidate.fit.left.almost_all =
+        std::numeric_limits<double>::infinity();
+    return;
+  }
+  candidate.coefficient = names_.name(fitted, formula.front().lobe, !candidate.chain.empty());
+  candidate.cost += candidate.coefficient.cost;
+}
+
+void Search::keep(Candidate candidate) {
+  if (!best_) {
+    best_ = std::move(candidate);
+    return;
+  }
+  const double ours = candidate.score(), theirs = best_->score();
+  if (!std::isfinite(ours)) {
+    if (!std::isfinite(theirs) && candidate.fit.left.most_of_peak < best_->fit.left.most_of_peak)
+      best_ = std::move(candidate);
+    return;
+  }
+  const double left = candidate.fit.left.most, best_left = best_->fit.left.most;
+  if (ours < theirs || (ours == theirs && left < kFarLess * best_left)) {
+    best_ = std::move(candidate);
+    other_.reset();
+  } else if (ours == theirs && kFarLess * left < best_left && candidate.ids() != best_->ids()) {
+    other_ = std::move(candidate);
+  }
+}
+
+}  // namespace lobelia::shader_check
