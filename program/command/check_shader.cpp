@@ -7,6 +7,8 @@
 #include "program/command/common_options.hpp"
 #include "program/command/options.hpp"
 #include "program/command/output_files.hpp"
+#include "program/command/watch.hpp"
+#include "studies/shader_check/annotation.hpp"
 #include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/check.hpp"
 
@@ -18,12 +20,12 @@ constexpr std::string_view kOnNames[] = {"egl", "vulkan"};
 
 struct CheckShaderArguments {
   std::string file, function, arguments, model, lobe = "cosine", normalisation = "exact", language,
-                                                on, json, html;
+                                                on, json, html, format = "text";
   std::vector<double> exponents{std::begin(shader_check::kUsualExponents),
                                 std::end(shader_check::kUsualExponents)};
   std::vector<std::string> settings;
   double time_limit = kShaderTimeLimit.count();
-  bool no_costs = false;
+  bool no_costs = false, watch = false;
 };
 
 /// By --language, or by the ending of the file.
@@ -80,20 +82,15 @@ shader_check::Request request_of(const CheckShaderArguments& options) {
   request.shown_exponent = request.exponents[request.exponents.size() / 2];
   request.time_limit = std::chrono::duration<double>(options.time_limit);
   request.costs = !options.no_costs;
+  request.worst_spheres = !options.html.empty();
   request.text = read_file(options.file, kMaxShaderBytes);
   return request;
 }
 
-ExitCode run_check_shader(const CheckShaderArguments& options) {
-  OutputFiles outputs;
-  outputs.reads(options.file);
+ExitCode check_once(const CheckShaderArguments& options) {
   const bool json_to_stdout = options.json == kStdout;
-  outputs.writes_report(options.json);
-  if (!options.html.empty()) {
-    outputs.writes(options.html);
-    require_writable(options.html);
-  }
-  shader_check::Check check = shader_check::check_shader(request_of(options));
+  const shader_check::Request request = request_of(options);
+  shader_check::Check check = shader_check::check_shader(request);
   check.record.command = command_line();
   FilesTogether files;
   if (!options.json.empty() && !json_to_stdout) write_record(options.json, check.record);
@@ -101,7 +98,25 @@ ExitCode run_check_shader(const CheckShaderArguments& options) {
   files.commit();
   fmt::print("{}", json_to_stdout ? records::record_text(check.record)
                                   : shader_check::report_text(check.record));
+  if (options.format == "github")
+    fmt::print("{}", shader_check::annotation_text(
+                         check.record, {request.language, request.file, request.text, {}}));
   return check.record.verdict == "passes" ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+ExitCode run_check_shader(const CheckShaderArguments& options) {
+  OutputFiles outputs;
+  outputs.reads(options.file);
+  outputs.writes_report(options.json);
+  if (!options.html.empty()) {
+    outputs.writes(options.html);
+    require_writable(options.html);
+  }
+  if (options.json == kStdout && options.format == "github")
+    throw Error(ExitCode::kUsage,
+                "only one of --json and --format github can go to stdout; give --json a file");
+  if (options.watch) run_at_changes(options.file, [&] { check_once(options); });
+  return check_once(options);
 }
 
 std::string arguments_help() {
@@ -159,7 +174,13 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       ->delimiter(',');
   OptionGroup output(*command, "Output");
   add_json(output, options->json, "shader-check");
-  output.add("--html", options->html, "FILE", "Write a page with spheres and a plot");
+  output.add("--html", options->html, "FILE",
+             "Write a page with spheres, maps of the error and a plot");
+  output.add_choice(
+      "--format", options->format, {"text", "github"},
+      "With github, print a line for a shader that differs besides, which GitHub Actions "
+      "shows beside the change");
+  output.add_flag("--watch", options->watch, "Check again whenever FILE changes, until Ctrl-C");
   output.add_flag("--no-costs", options->no_costs, "Measure neither half floats nor instructions");
   command->footer(
       "The shader runs in a process of its own, on the first graphics processor that has a driver, or\n"

@@ -27,9 +27,11 @@ void add_energy(Judge& judge, const Plan& plan, records::ShaderCheck& record) {
   }
 }
 
-void add_pictures(const Plan& plan, Judge& judge, Check& check) {
+void add_spheres(const Plan& plan, Judge& judge, Check& check) {
+  const double exponent = plan.points[plan.spheres[0].begin].exponent;
+  Spheres& spheres = check.spheres.emplace_back(Spheres{exponent, judge.peak(exponent), {}});
   for (std::size_t k = 0; k < plan.spheres.size(); ++k) {
-    SpherePair& pair = check.spheres.emplace_back();
+    SpherePair& pair = spheres.pairs.emplace_back();
     pair.light_degrees = kLightDegrees[k];
     pair.theirs = pair.model = Image(kSphereSize, kSphereSize);
     for (int y = 0; y < kSphereSize; ++y)
@@ -40,11 +42,34 @@ void add_pictures(const Plan& plan, Judge& judge, Check& check) {
         std::ranges::fill(pair.model.pixel(x, y), float(judge.model(i)));
       }
   }
+}
+
+void add_curve(const Plan& plan, Judge& judge, Check& check) {
   check.curve.degrees = plan.arc_degrees;
   for (std::size_t i = 0; i < plan.arc.count; ++i) {
     check.curve.theirs.push_back(judge.theirs(plan.arc.begin + i));
     check.curve.model.push_back(judge.model(plan.arc.begin + i));
   }
+}
+
+/// A second run: only the first one tells which exponent that is.
+void add_worst_spheres(const Request& request, const Arguments& arguments,
+                       const ShaderSource& source, Check& check) {
+  if (check.record.errors.empty()) return;
+  const auto excess = [](const records::ShaderError& error) {
+    return error.max_of_peak / error.allowed_of_peak;
+  };
+  const double worst = std::ranges::max_element(check.record.errors, {}, excess)->exponent;
+  if (worst == check.spheres[0].exponent) return;
+  Plan plan;
+  add_sphere_points(worst, plan);
+  const ShaderPoints points = arguments.of(plan.points);
+  const ShaderRun run = run_programs(
+      request.api, points,
+      {make_program(source, request.api, points.count(), points.components, request.time_limit)}, 1,
+      {request.time_limit, 0});
+  Judge judge(request.highlight, plan, run.values.front());
+  add_spheres(plan, judge, check);
 }
 
 /// Mesa leaves a loop after 65535 rounds, so that an endless one only takes long.
@@ -109,7 +134,9 @@ Check check_shader(const Request& request) {
   if (!passes) require_end(request, source, call.function, domain_points);
   if (!passes) record.explanation = judge.explanation(record.oddities, arguments.is_of_roughness());
   add_energy(judge, plan, record);
-  add_pictures(plan, judge, check);
+  add_spheres(plan, judge, check);
+  add_curve(plan, judge, check);
+  if (!passes && request.worst_spheres) add_worst_spheres(request, arguments, source, check);
   if (request.costs) {
     add_costs(request, source, domain, domain_points, values, record);
   }

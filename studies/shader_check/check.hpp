@@ -24,11 +24,19 @@ struct Request {
   double shown_exponent = 64;               ///< of pictures and the curve
   TimeLimit time_limit = kShaderTimeLimit;  ///< of all that compiles and runs shaders, together
   bool costs = true;                        ///< whether to measure half floats and instructions
+  bool worst_spheres =
+      false;  ///< besides, if it differs, those of the exponent that is furthest above what is allowed
 };
+
 /// A lit sphere: light, theirs and the model's.
 struct SpherePair {
   double light_degrees = 0;
   Image theirs, model;
+};
+
+struct Spheres {
+  double exponent = 1, peak = 1;  ///< peak: of the model, as in the errors of the record
+  std::vector<SpherePair> pairs;
 };
 
 struct Curve {
@@ -37,8 +45,8 @@ struct Curve {
 };
 
 struct Check {
-  records::ShaderCheck record;  ///< without a command
-  std::vector<SpherePair> spheres;
+  records::ShaderCheck record;   ///< without a command
+  std::vector<Spheres> spheres;  ///< of the exponent shown, and of the worst one
   Curve curve;
   double shown_exponent = 64;
 };

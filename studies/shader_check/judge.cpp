@@ -35,9 +35,13 @@ Plan judged_plan(const Highlight& highlight, const std::vector<double>& exponent
   Arc arc = arc_points(shown_exponent);
   plan.arc = plan.add(arc.points);
   plan.arc_degrees = std::move(arc.degrees);
-  for (const double degrees : kLightDegrees)
-    plan.spheres.push_back(plan.add(sphere_points(degrees, shown_exponent, kSphereSize)));
+  add_sphere_points(shown_exponent, plan);
   return plan;
+}
+
+void add_sphere_points(double exponent, Plan& plan) {
+  for (const double degrees : kLightDegrees)
+    plan.spheres.push_back(plan.add(sphere_points(degrees, exponent, kSphereSize)));
 }
 
 void add_hemispheres(const Highlight& highlight, const std::vector<double>& exponents, Plan& plan) {

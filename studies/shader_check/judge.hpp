@@ -37,6 +37,7 @@ struct Plan {
 /// The parts that the verdict needs. `shown_exponent` is that of arc and spheres.
 Plan judged_plan(const Highlight& highlight, const std::vector<double>& exponents,
                  double shown_exponent);
+void add_sphere_points(double exponent, Plan& plan);
 void add_hemispheres(const Highlight& highlight, const std::vector<double>& exponents, Plan& plan);
 
 /// A function's values at the points of a plan, beside the model in double.
@@ -47,6 +48,7 @@ class Judge {
       : highlight_(highlight), plan_(plan), values_(values), coefficients_(highlight) {}
 
   double model(std::size_t i);
+  double peak(double exponent) { return coefficients_.at(exponent); }
   double theirs(std::size_t i) const { return double(values_[i].r); }
 
   /// Sets the verdict, errors and oddities of the record.

@@ -10,8 +10,9 @@
 #include "base/words/base64.hpp"
 #include "base/words/html.hpp"
 #include "base/words/svg_chart.hpp"
-#include "compare/compare.hpp"
+#include "compare/maps/difference_map.hpp"
 #include "studies/shader_check/check.hpp"
+#include "studies/shader_check/points.hpp"
 
 namespace lobelia {
 namespace embedded {
@@ -26,37 +27,74 @@ std::string picture_link(const DisplayImage& picture) {
   return "data:image/png;base64," + base64(png_bytes(picture));
 }
 
-void write_picture(Html& html, const DisplayImage& picture, const std::string& words) {
-  const Tag figure(html, "figure");
+void write_image(Html& html, const DisplayImage& picture, const std::string& words) {
   html.empty("img", {{"src", picture_link(picture)},
                      {"alt", words},
                      {"width", std::to_string(picture.width)},
                      {"height", std::to_string(picture.height)}});
+}
+
+void write_picture(Html& html, const DisplayImage& picture, const std::string& words) {
+  const Tag figure(html, "figure");
+  write_image(html, picture, words);
   html.element("figcaption", words);
 }
 
-void write_spheres(Html& html, const Check& check) {
-  html.element("h2", fmt::format("Spheres, n = {:g}", check.shown_exponent));
+/// (theirs - model) / peak by pixel.
+std::vector<float> errors_of(const SpherePair& pair, double peak) {
+  std::vector<float> errors(pair.model.pixel_count());
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    errors[i] =
+        float((double(pair.theirs.values()[3 * i]) - double(pair.model.values()[3 * i])) / peak);
+  return errors;
+}
+
+/// A map on a grey ground, so that the sphere is seen where there is no error.
+DisplayImage error_map(const std::vector<float>& errors, int size, double largest) {
+  DisplayImage map = colour_picture(errors, size, size, largest, kSignedColourMap);
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (!is_sphere(int(i) % size, int(i) / size, size))
+      std::fill_n(map.rgb.begin() + std::ptrdiff_t(3 * i), 3, std::uint8_t{64});
+  return map;
+}
+
+/// The colours of the maps, with the errors at both ends and in the middle.
+void write_scale(Html& html, double largest) {
+  constexpr int kWidth = 256, kHeight = 12;
+  std::vector<float> ramp(std::size_t{kWidth} * kHeight);
+  for (std::size_t i = 0; i < ramp.size(); ++i)
+    ramp[i] = float(largest * (2 * double(i % kWidth) / (kWidth - 1) - 1));
+  const std::string end = fmt::format("{:.3g} % of the peak", 100 * largest);
+  const Tag figure(html, "figure", {{"class", "scale"}});
+  write_image(html, colour_picture(ramp, kWidth, kHeight, largest, kSignedColourMap),
+              "colour scale from -" + end + " to +" + end);
+  for (const std::string& label : {"-" + end + ": darker than the model", std::string("0"),
+                                   "+" + end + ": brighter than the model"})
+    html.element("figcaption", label);
+}
+
+void write_spheres(Html& html, const Spheres& spheres, const std::string& function,
+                   const char* which) {
+  html.element("h2", fmt::format("Spheres, n = {:g}{}", spheres.exponent, which));
   html.element("p", {{"class", "note"}},
-               "Both pictures of a row have one exposure, by the model's peak. The difference is "
-               "white at the larger of its own peak and a thousandth of the model's; magenta is no "
-               "number.");
-  const Tag grid(html, "div", {{"class", "spheres"}});
-  for (const SpherePair& pair : check.spheres) {
-    const double peak = std::max(peak_value(pair.model), 1e-30);
-    double largest = 1e-3 * peak;
-    for (std::size_t i = 0; i < pair.theirs.values().size(); ++i) {
-      const double apart =
-          std::abs(double(pair.theirs.values()[i]) - double(pair.model.values()[i]));
-      if (std::isfinite(apart)) largest = std::max(largest, apart);
+               "Both pictures of a row have one exposure, by the model's peak. The third is their "
+               "difference, as a share of that peak. Magenta or green is no number.");
+  double largest = 1e-3;
+  for (const SpherePair& pair : spheres.pairs)
+    for (const float error : errors_of(pair, spheres.peak))
+      if (std::isfinite(error)) largest = std::max(largest, std::abs(double(error)));
+  {
+    const Tag grid(html, "div", {{"class", "spheres"}});
+    for (const SpherePair& pair : spheres.pairs) {
+      const double stops = exposure_for_peak(std::max(peak_value(pair.model), 1e-30));
+      const std::string light = fmt::format("light at {:g} degrees", pair.light_degrees);
+      write_picture(html, to_display(pair.theirs, stops), function + ", " + light);
+      write_picture(html, to_display(pair.model, stops), "model, " + light);
+      write_picture(html, error_map(errors_of(pair, spheres.peak), pair.model.width(), largest),
+                    "error, " + light);
     }
-    const double stops = exposure_for_peak(peak);
-    const std::string light = fmt::format("light at {:g} degrees", pair.light_degrees);
-    write_picture(html, to_display(pair.theirs, stops), check.record.function + ", " + light);
-    write_picture(html, to_display(pair.model, stops), "model, " + light);
-    write_picture(html, difference_picture(pair.theirs, pair.model, largest),
-                  fmt::format("difference, white at {:.2g} of the peak", largest / peak));
   }
+  write_scale(html, largest);
 }
 
 void write_curve(Html& html, const Check& check) {
@@ -107,7 +145,9 @@ std::string report_page(const Check& check) {
                  passes ? fmt::format("It is {} within the rounding of float32.", record.model)
                         : fmt::format("It differs from {}: {}.", record.model,
                                       record.explanation ? record.explanation->sentence : ""));
-    write_spheres(html, check);
+    for (const Spheres& spheres : check.spheres)
+      write_spheres(html, spheres, record.function,
+                    &spheres == check.spheres.data() ? "" : ", furthest above what is allowed");
     write_curve(html, check);
     html.element("h2", "Figures");
     html.element("pre", report_text(record));

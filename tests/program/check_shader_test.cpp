@@ -1,4 +1,6 @@
 // lobelia check-shader as a user runs it, and its page in docs/.
+#include <fmt/format.h>
+
 #include "base/words/text.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "tests/json.hpp"
@@ -140,6 +142,59 @@ TEST_F(NeedsWebGpu, KeepsAShaderFromForgingResults) {
   EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("HACKED")));
   EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("\ntmp/")));
   EXPECT_THAT(result.output_tail, testing::Not(HasSubstr("\nhome/")));
+}
+
+TEST_F(CheckShaderCommand, TellsGithubTheLineOfTheTerm) {
+  // The name of the file would end the command, and begin another.
+  const std::string file = "a,line=1::b%0A.glsl";
+  write(file,
+        "const float PI = 3.14159265;\nfloat f(float c, float l, float n)\n{\n"
+        "    if (l <= 0.0) return 0.0;\n    float k = (n + 2.0)\n        / (2.0 * PI);\n"
+        "    return k * pow(max(c, 0.0), n);\n}\n");
+  const std::vector<std::string> arguments{file,           "--function", "f",         "--arguments",
+                                           "cosine,N.L,n", "--model",    "phong_rdf", "--no-costs",
+                                           "--format",     "github"};
+  const ProcessResult result = check(arguments);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output_tail,
+              HasSubstr("\n::error file=a%2Cline=1%3A%3Ab%250A.glsl,line=6,title=f differs from "
+                        "phong_rdf::"));
+  write(file,
+        "float f(float c, float l, float n)\n{\n"
+        "    return l > 0.0 ? (n + 1.0) / 6.28318531 * pow(max(c, 0.0), n) : 0.0;\n}\n");
+  const ProcessResult passes = check(arguments);
+  EXPECT_EQ(passes.exit_code, 0) << passes.output_tail;
+  EXPECT_THAT(passes.output_tail, testing::Not(HasSubstr("::error")));
+}
+
+TEST_F(CheckShaderCommand, WatchesItsFileUntilItIsInterrupted) {
+  const auto shader = [](const char* coefficient) {
+    return fmt::format(
+        "float f(float c, float l, float n)\n{{\n    return l > 0.0 ? {} / "
+        "6.28318531 * pow(max(c, 0.0), n) : 0.0;\n}}\n",
+        coefficient);
+  };
+  write("mine.glsl", shader("(n + 2.0)"));
+  write("broken", shader("(n + m)"));
+  write("right", shader("(n + 1.0)"));
+  // An editor writes into the file, or gives its name to a new one; some remove it first.
+  const ProcessResult result = run_shell(
+      "until_said() { until grep -q \"$1\" out; do sleep 0.05; done; }\n"
+      "{ until_said differs; cat broken > mine.glsl; until_said lobelia:; rm mine.glsl; sleep 0.4\n"
+      "mv right mine.glsl; until_said passes; kill -INT $$; } > /dev/null 2>&1 &\n"
+      "exec \"$LOBELIA\" check-shader mine.glsl --function f --arguments cosine,N.L,n --model "
+      "phong_rdf --exponent 16 --no-costs --watch > out 2>&1\n",
+      directory_.path());
+  EXPECT_EQ(result.exit_code, 130);
+  const std::string said = read_file(directory_.path() / "out", 1 << 20);
+  const std::size_t differs = said.find("\ndiffers: "),
+                    broken = said.find("\nlobelia: mine.glsl:3: "),
+                    passes = said.find("\npasses: ");
+  EXPECT_LT(differs, broken) << said;
+  EXPECT_LT(broken, passes) << said;
+  EXPECT_NE(passes, said.npos) << said;
+  EXPECT_EQ(check({"none.glsl", "--function", "f", "--model", "phong_rdf", "--watch"}).exit_code,
+            3);
 }
 
 TEST_F(CheckShaderCommand, RefusesInOneLine) {

@@ -6,6 +6,7 @@
 #include "base/system/error.hpp"
 #include "renderer/export/export.hpp"
 #include "renderer/export/names.hpp"
+#include "studies/shader_check/annotation.hpp"
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "studies/shader_check/own_shader.hpp"
@@ -256,6 +257,63 @@ TEST_F(ShaderCheck, ThePageHasPicturesAndEscapesTheFilesName) {
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_EQ(page.find("<b>"), std::string::npos);
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
+}
+
+TEST_F(ShaderCheck, ThePageMapsTheErrorOfTheExponentShownAndOfTheWorst) {
+  // Right for n = 16 alone.
+  shader_check::Request request = request_of(
+      "phong_rdf",
+      "float highlight(vec3 N, vec3 V, vec3 L, float n) { return dot(N, L) <= 0.0 ? 0.0 : "
+      "17.0 / 6.28318531 * pow(max(dot(reflect(-V, N), L), 0.0), n); }\n");
+  request.exponents = {4, 16, 64};
+  request.shown_exponent = 16;
+  request.worst_spheres = true;
+  const Check check = shader_check::check_shader(request);
+  ASSERT_EQ(check.spheres.size(), 2u);
+  EXPECT_EQ(check.spheres[0].exponent, 16);
+  // 17 / 5 - 1 of the peak is more than 1 - 17 / 65.
+  EXPECT_EQ(check.spheres[1].exponent, 4);
+  const auto largest = [](const shader_check::Spheres& spheres) {
+    double error = 0;
+    for (const shader_check::SpherePair& pair : spheres.pairs)
+      for (std::size_t i = 0; i < pair.model.values().size(); ++i)
+        error = std::max(
+            error, std::abs(double(pair.theirs.values()[i]) - double(pair.model.values()[i])));
+    return error / spheres.peak;
+  };
+  EXPECT_LT(largest(check.spheres[0]), 1e-4);
+  EXPECT_NEAR(largest(check.spheres[1]), 2.4, 0.01);
+  const std::string page = shader_check::report_page(check);
+  EXPECT_THAT(page, HasSubstr("Spheres, n = 16<"));
+  EXPECT_THAT(page, HasSubstr("Spheres, n = 4, furthest above what is allowed<"));
+  EXPECT_THAT(page, HasSubstr("+240 % of the peak: brighter than the model"));
+  EXPECT_THAT(page, HasSubstr("-0.1 % of the peak: darker than the model"));
+}
+
+TEST(LineOfTerm, IsThatOfTheCoefficientOfThePowerOrOfTheReturn) {
+  const ShaderSource source{ShaderText::kGlsl,
+                            "mine.glsl",
+                            "// pi pow(\nfloat f(float c);\nfloat f(float c)\n{\n"
+                            "    float k = 1.0 / PI;\n    float p = pow(c, 2.0);\n"
+                            "    if (c < 0.0) return 0.0;\n    return k * p;\n}\n"
+                            "float g(float c)\n{\n    return pow(c, 2.0);\n}\n",
+                            {}};
+  const auto line = [&](const char* function, std::vector<std::string> mistakes) {
+    return shader_check::line_of_term(source, function, mistakes);
+  };
+  EXPECT_EQ(line("f", {"coefficient"}), 5u);
+  EXPECT_EQ(line("f", {"two-twice"}), 5u);
+  EXPECT_EQ(line("f", {"exponent", "coefficient"}), 6u);
+  EXPECT_EQ(line("f", {"cosine-missing"}), 8u);
+  EXPECT_EQ(line("f", {"coefficient-missing"}), 8u);
+  EXPECT_EQ(line("f", {}), 8u);
+  EXPECT_EQ(line("g", {"exponent"}), 12u);
+  EXPECT_EQ(line("g", {"coefficient"}), 5u) << "it is in another function";
+  EXPECT_EQ(line("h", {"coefficient"}), 0u);
+  EXPECT_EQ(shader_check::line_of_term(
+                {ShaderText::kGlsl, "mine.glsl", "float f(float c) { return pow(c,\nPI) / PI", {}},
+                "f", std::vector<std::string>{"coefficient"}),
+            2u);
 }
 
 }  // namespace
