@@ -218,6 +218,40 @@ TEST_F(CheckShaderCommand, RefusesInOneLine) {
          "mine.glsl");
 }
 
+/// The names of the files in docs/examples/shaders.
+std::vector<std::string> engine_formulas() {
+  std::vector<std::string> names;
+  for (const auto& file :
+       fs::directory_iterator(fs::path(LOBELIA_SOURCE_DIR) / "docs/examples/shaders"))
+    names.push_back(file.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+class EngineFormula : public NeedsShaderRunner, public testing::WithParamInterface<std::string> {};
+
+TEST_P(EngineFormula, IsAsThePageSays) {
+  const fs::path docs = fs::path(LOBELIA_SOURCE_DIR) / "docs";
+  std::vector<std::string> row;  // engine, formula, options, what the command says, why
+  for (const std::string& line : split(read_file(docs / "engine_formulas.md", 1 << 20), "\n"))
+    if (line.find("(examples/shaders/" + GetParam() + ")") != line.npos) row = split(line, "|");
+  ASSERT_EQ(row.size(), 5u) << "docs/engine_formulas.md has no row of " << GetParam();
+  std::vector<std::string> arguments = split(row[2], " `");
+  arguments.insert(arguments.begin(),
+                   {"check-shader", "examples/shaders/" + GetParam(), "--no-costs", kHang});
+  const ProcessResult result = run_lobelia(arguments, docs);
+  if (result.output_tail.find("llvmpipe") == std::string::npos)
+    GTEST_SKIP() << "the page is of Mesa's llvmpipe";
+  EXPECT_THAT(result.output_tail, HasSubstr("\n" + row[3] + "\n"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, EngineFormula, testing::ValuesIn(engine_formulas()),
+                         [](const auto& name) {
+                           std::string word = name.param.substr(0, name.param.rfind('.'));
+                           std::ranges::replace(word, '.', '_');
+                           return word;
+                         });
+
 TEST(CheckShaderPage, ListsEveryMistakeByName) {
   const std::string page = tutorial();
   for (const std::string_view name : shader_check::mistake_names())
