@@ -7,6 +7,7 @@
 
 #include "base/records/agreement.hpp"
 #include "base/records/bench.hpp"
+#include "base/records/bsdf_check.hpp"
 #include "base/records/cluster.hpp"
 #include "base/records/comparison.hpp"
 #include "base/records/conversion.hpp"
@@ -39,8 +40,8 @@ constexpr std::array<Kind, sizeof...(T)> kinds_of() {
 }
 
 constexpr auto kKinds =
-    kinds_of<Agreement, Bench, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Conversion,
-             ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
+    kinds_of<Agreement, Bench, Blob, Blobs, BsdfCheck, Cell, Comparison, ComparisonSet, Content,
+             Conversion, ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
              FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
              LobeSearch, Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
              Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyHighlights, VerifyPaper,
@@ -117,14 +118,14 @@ const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
     for (auto* const define :
-         {define_agreement_tables,    define_bench_tables,      define_chart_tables,
-          define_cluster_tables,      define_comparison_tables, define_conversion_tables,
-          define_cost_tables,         define_farm_tables,       define_highlight_tables,
-          define_lobe_search_tables,  define_model_tables,      define_page_tables,
-          define_paper_tables,        define_profile_tables,    define_project_tables,
-          define_render_tables,       define_result_tables,     define_scene_tables,
-          define_shader_check_tables, define_stability_tables,  define_verdict_tables,
-          define_verify_tables})
+         {define_agreement_tables,  define_bench_tables,        define_bsdf_check_tables,
+          define_chart_tables,      define_cluster_tables,      define_comparison_tables,
+          define_conversion_tables, define_cost_tables,         define_farm_tables,
+          define_highlight_tables,  define_lobe_search_tables,  define_model_tables,
+          define_page_tables,       define_paper_tables,        define_profile_tables,
+          define_project_tables,    define_render_tables,       define_result_tables,
+          define_scene_tables,      define_shader_check_tables, define_stability_tables,
+          define_verdict_tables,    define_verify_tables})
       define(all);
     return all;
   }();

@@ -3,6 +3,7 @@
 #include "base/system/files.hpp"
 #include "base/system/standard_streams.hpp"
 #include "base/words/text.hpp"
+#include "program/command/check_shader_bsdf.hpp"
 #include "program/command/commands.hpp"
 #include "program/command/common_options.hpp"
 #include "program/command/options.hpp"
@@ -26,6 +27,7 @@ struct CheckShaderArguments {
   std::vector<std::string> settings;
   double time_limit = kShaderTimeLimit.count();
   bool no_costs = false, watch = false;
+  BsdfOptions bsdf;
 };
 
 /// By --language, or by the ending of the file.
@@ -60,7 +62,28 @@ std::pair<std::string, std::string> setting_of(const std::string& setting) {
   return {setting.substr(0, sign), setting.substr(sign + 1)};
 }
 
+shader_check::bsdf::BsdfRequest bsdf_request_of(const CheckShaderArguments& options) {
+  shader_check::bsdf::BsdfRequest request;
+  request.file = options.file;
+  request.text = read_file(options.file, kMaxShaderBytes);
+  request.language = language_of(options);
+  request.api = api_of(options, request.language);
+  request.time_limit = std::chrono::duration<double>(options.time_limit);
+  for (const std::string& setting : options.settings)
+    request.settings.push_back(setting_of(setting));
+  if (!std::ranges::equal(options.exponents, shader_check::kUsualExponents))
+    request.exponents = options.exponents;
+  for (const auto& [name, value] : {std::pair{"--function", &options.function},
+                                    {"--arguments", &options.arguments},
+                                    {"--model", &options.model},
+                                    {"--html", &options.html}})
+    if (!value->empty()) throw Error(ExitCode::kUsage, "{}: not with --bsdf", name);
+  set_bsdf_options(options.bsdf, request);
+  return request;
+}
+
 shader_check::Request request_of(const CheckShaderArguments& options) {
+  if (options.model.empty()) throw Error(ExitCode::kUsage, "--model is required");
   shader_check::Request request;
   request.file = options.file;
   request.language = language_of(options);
@@ -89,6 +112,7 @@ shader_check::Request request_of(const CheckShaderArguments& options) {
 
 ExitCode check_once(const CheckShaderArguments& options) {
   const bool json_to_stdout = options.json == kStdout;
+  if (options.bsdf.is_wanted) return run_check_bsdf(bsdf_request_of(options), options.json);
   const shader_check::Request request = request_of(options);
   shader_check::Check check = shader_check::check_shader(request);
   check.record.command = command_line();
@@ -158,8 +182,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       ->check(between(0.1, 3600))
       ->capture_default_str();
   OptionGroup model(*command, "Model");
-  model.add("--model", options->model, "", fmt::format("Model: {}", join(model_names())))
-      ->required();
+  model.add("--model", options->model, "", fmt::format("Model: {}", join(model_names())));
   model.add("--lobe", options->lobe, "", fmt::format("Lobe: {}", allowed_lobes()))
       ->capture_default_str();
   model
@@ -167,13 +190,15 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
            fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))
       ->capture_default_str();
   model
-      .add("--exponent", options->exponents, "N",
-           "Exponents to check; otherwise 1, 4, 16, 64, 256 and 1000")
+      .add(
+          "--exponent", options->exponents, "N",
+          "Exponents to check; otherwise 1, 4, 16, 64, 256 and 1000, and with --bsdf 1, 16 and 256")
       ->check(between(kMinExponent, kMaxExponent))
       ->expected(1, 20)
       ->delimiter(',');
+  add_bsdf_options(*command, options->bsdf);
   OptionGroup output(*command, "Output");
-  add_json(output, options->json, "shader-check");
+  add_json(output, options->json, "shader-check, or with --bsdf bsdf-check");
   output.add("--html", options->html, "FILE",
              "Write a page with spheres, maps of the error and a plot");
   output.add_choice(
@@ -191,6 +216,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       "  lobelia check-shader mine.glsl --function myHighlight --model blinn_phong_ndf\n"
       "  lobelia check-shader mine.frag --set lightColor=1,1,1 --model modified_phong\n"
       "  lobelia check-shader mine.hlsl --function spec --arguments cosine,roughness --model phong_rdf\n"
+      "  lobelia check-shader ggx.glsl --bsdf\n"
       "\n"
       "Exit codes: 0 it is the model, 1 it differs, 2 usage, 3 it does not compile, end or write, 4 an\n"
       "output cannot be written, 5 nothing runs shaders here, or the driver failed.");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/words/text.hpp"
+#include "studies/shader_check/bsdf/explain.hpp"
 #include "studies/shader_check/explain.hpp"
 #include "tests/json.hpp"
 #include "tests/program/run_lobelia.hpp"
@@ -252,10 +253,40 @@ INSTANTIATE_TEST_SUITE_P(Engines, EngineFormula, testing::ValuesIn(engine_formul
                            return word;
                          });
 
+TEST_F(CheckShaderCommand, TestsTheBsdfOfTheTutorial) {
+  const std::string page = tutorial(), section = page.substr(page.find("## A BSDF"));
+  const std::string shader = block_of(section, "glsl");
+  write("blinn.glsl", shader);
+  const ProcessResult result = check({"blinn.glsl", "--bsdf", kHang});
+  EXPECT_EQ(result.exit_code, 1) << result.output_tail;
+  for (const char* line :
+       {"explained by half-vector-jacobian: ", "eval is reciprocal", "random tests"}) {
+    EXPECT_THAT(result.output_tail, HasSubstr(line));
+    EXPECT_THAT(section, HasSubstr(line));
+  }
+  std::string right = shader;
+  right.replace(right.find("D(c, n) * c;"), 11,
+                "D(c, n) * c / (4.0 * dot(wi, normalize(wi + wo)))");
+  write("blinn.glsl", right);
+  const ProcessResult passes = check({"blinn.glsl", "--bsdf", "--json", "r.json", kHang});
+  EXPECT_EQ(passes.exit_code, 0) << passes.output_tail;
+  const Json record = Json::parse(read_file(directory_.path() / "r.json", 1 << 20));
+  EXPECT_EQ(record["kind"], "bsdf-check");
+  EXPECT_EQ(record["verdict"], "passes");
+  EXPECT_EQ(check({"blinn.glsl", "--bsdf", "--model", "phong_rdf"}).exit_code, 2);
+  EXPECT_EQ(check({"blinn.glsl", "--bsdf", "--sample", "pdf(V,L,n)"}).exit_code, 2);
+  write("mine.wgsl", "fn f() -> f32 { return 0.0; }\n");
+  EXPECT_EQ(check({"mine.wgsl", "--bsdf"}).exit_code, 2);
+}
+
 TEST(CheckShaderPage, ListsEveryMistakeByName) {
   const std::string page = tutorial();
   for (const std::string_view name : shader_check::mistake_names())
     EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", name)));
+  for (const auto& mistake : shader_check::bsdf::bsdf_mistakes())
+    EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", mistake.name)));
+  for (const std::string_view check : records::kBsdfChecks)
+    EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", check)));
 }
 
 }  // namespace
