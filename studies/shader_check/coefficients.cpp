@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kOfFitted = 1.25, kOfFittedLine = 1.5, kUnknown = 2;
+/// A fitted factor is a cause only so many times its tolerance away from 1, and if it does not print as 1.
+constexpr double kClear = 3, kLeastExposure = 5e-4;
 
 struct Factor {
   std::string_view id, words;
@@ -142,12 +144,13 @@ NamedCoefficient CoefficientNames::name(std::span<const FittedCoefficient> fitte
     return named;
   };
   if (fitted.size() > 1) {
-    const double factor = fitted[0].value / own(fitted[0].exponent);
-    if (is(owns, factor)) {
-      if (is_exposed)
+    const double factor = fitted[0].value / own(fitted[0].exponent), off = std::abs(factor - 1);
+    if (off > kClear * fitted[0].tolerance && is(owns, factor)) {
+      if (is_exposed && off > kLeastExposure)
         return fitted_number("exposure", fmt::format("it is exposed by {:.4g} before that", factor),
                              1);
-      return fitted_number("factor", "by the same factor at every exponent", kOfFitted);
+      if (!is_exposed)
+        return fitted_number("factor", "by the same factor at every exponent", kOfFitted);
     }
     const double constant = fitted[0].value;
     if (is([&](double) { return constant; }))

@@ -40,6 +40,8 @@ double light_of(const Formula& formula, const Geometry& g) {
       return std::max(g.n_dot_l, formula.least_light);
     case kReversed:
       return std::min(g.n_dot_l, 0.0);
+    case kReversedAbsolute:
+      return std::max(-g.n_dot_l, 0.0);
   }
   return 0;
 }

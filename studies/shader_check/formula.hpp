@@ -38,7 +38,8 @@ struct Formula {
     kSigned,
     kAbsolute,
     kLeast,
-    kReversed
+    kReversed,
+    kReversedAbsolute
   } behind = Behind::kBlack;
   double least_light = 0;  ///< max(N.L, this), for kLeast
   Reversed reversed = Reversed::kNone;

@@ -87,6 +87,9 @@ void add_behind(Mistakes& all) {
       "behind",
       nullptr, kAbsolute, true);
   add("test-reversed", "the test of N.L is reversed: it is lit from behind alone", nullptr,
+      kReversedAbsolute);
+  add("test-reversed",
+      "the test of N.L is reversed: it is lit from behind alone, and negative there", has_cosine,
       kReversed);
 }
 
@@ -227,6 +230,7 @@ void add_exponents(Mistakes& all) {
   add("n^2", [](double n) { return n * n; });
   add("sqrt(n)", [](double n) { return std::sqrt(n); });
   add("128 n", [](double n) { return 128 * n; });
+  add("n / 1000", [](double n) { return n / 1000; });
   const auto add_rule = [&](const std::string& used, double (*rule)(double alpha)) {
     all.push_back({"exponent-of-roughness", Part::kExponent,
                    fmt::format("the exponent is {}, where 2 / alpha^2 - 2 is expected", used),

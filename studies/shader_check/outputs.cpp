@@ -44,7 +44,7 @@ constexpr OutputStep kSteps[] = {
      -kInfinity, kInfinity},
     {"gamma", "the result has a gamma of 1 / 2.2", gamma_encoded, gamma_decoded, 0, kInfinity},
     {"gamma", "the result has a gamma of 1 / 2.2, and is clamped to 1",
-     [](double v) { return gamma_encoded(clamped(v)); }, gamma_decoded, 0, 1},
+     [](double v) { return gamma_encoded(clamped(v)); }, gamma_decoded, 0, 1, false, 0, "clamped"},
     {"gamma-decoded", "the result has a gamma of 2.2, as if it were no light", gamma_decoded,
      gamma_encoded, 0, kInfinity},
     {"square-root", "the result is a square root", [](double v) { return power(v, 0.5); }, squared,

@@ -17,7 +17,8 @@ struct OutputStep {
   /// The values that it may give. At an end of the range, any radiance beyond is possible.
   double least, most;
   bool is_tone_mapping = false;
-  double rounding = 0;  ///< by which float32 is off near 0, as where 1 is taken away
+  double rounding = 0;         ///< by which float32 is off near 0, as where 1 is taken away
+  std::string_view also = {};  ///< another mistake that is in it
 };
 std::span<const OutputStep> output_steps();
 

@@ -26,7 +26,10 @@ std::vector<std::string_view> Candidate::ids() const {
   for (const Mistake* mistake : shape) ids.push_back(mistake->id);
   if (fit.additions.ambient) ids.push_back("ambient");
   if (fit.additions.diffuse) ids.push_back("diffuse");
-  for (const OutputStep* step : chain) ids.push_back(step->id);
+  for (const OutputStep* step : chain) {
+    ids.push_back(step->id);
+    if (!step->also.empty()) ids.push_back(step->also);
+  }
   return ids;
 }
 
@@ -152,7 +155,10 @@ void Search::name(Candidate& candidate) {
     const double error = 3 * candidate.fit.errors[g];
     if (!candidate.fit.is_seen[g] || formula[g].exponent > kMostExponent || error > kUnclear)
       continue;
-    fitted.push_back({n, formula[g].exponent, c, textbook_rounding(n) / 2 + error});
+    // The inverse of an output step may multiply the rounding, as the power of 2.4 of sRGB does.
+    const double share = candidate.chain.empty() ? 0.5 : 1.5,
+                 rounding = share * textbook_rounding(std::max(n, formula[g].exponent));
+    fitted.push_back({n, formula[g].exponent, c, rounding + error});
     candidate.factors.push_back({n, c / names_.own(n)});
   }
   candidate.cost = double(candidate.shape.size() + candidate.chain.size()) +

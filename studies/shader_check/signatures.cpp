@@ -17,6 +17,7 @@ constexpr double kEdge = 1e-5;
 bool is_rounding_of_cosine(const Candidate& candidate, const Observed& observed) {
   const std::vector<Group> groups = groups_of(observed);
   double sum = 0, squares = 0;
+  bool is_over = false;
   std::vector<double> sizes;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const double n = groups[g].exponent, step = 0.01 / n;
@@ -34,7 +35,8 @@ bool is_rounding_of_cosine(const Candidate& candidate, const Observed& observed)
           (lobe_value(formula.lobe, s - step, n) - lobe_value(formula.lobe, s + step, n)) /
           (2 * step);
       if (slope <= 0) continue;
-      const double off = (groups[g].values[i] / factor - lobe) / slope;
+      const double difference = groups[g].values[i] / factor - lobe, off = difference / slope;
+      is_over = is_over || std::abs(difference) > allowed_error(n);
       // A single rounding of the result is no more than this.
       const double result = lobe / slope * 1.2e-7;
       const double size = std::max(std::abs(off) - result, 0.0);
@@ -42,7 +44,8 @@ bool is_rounding_of_cosine(const Candidate& candidate, const Observed& observed)
       sizes.push_back(size);
     }
   }
-  if (sizes.size() < kFewest || squares == 0) return false;
+  // Else something other made the verdict.
+  if (sizes.size() < kFewest || squares == 0 || !is_over) return false;
   const auto most = sizes.begin() + std::ptrdiff_t(0.98 * double(sizes.size() - 1));
   std::nth_element(sizes.begin(), most, sizes.end());
   const double count = double(sizes.size()), mean = sum / count, rms = std::sqrt(squares / count);

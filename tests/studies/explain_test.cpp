@@ -65,9 +65,11 @@ std::vector<PlantedInFormula> single_mistakes() {
       all.push_back(
           {highlight, {&mistake}, 1, 0, 0, nullptr, {std::string(mistake.id)}, mistake.words});
     }
-    for (const OutputStep& step : output_steps())
+    for (const OutputStep& step : output_steps()) {
       all.push_back(
           {highlight, {}, 1, 0, 0, &step, {std::string(step.id)}, std::string(step.words)});
+      if (!step.also.empty()) all.back().names.emplace_back(step.also);
+    }
     const auto add = [&](const char* name, double factor, double ambient, double diffuse) {
       all.push_back({highlight, {}, factor, ambient, diffuse, nullptr, {name}, name});
     };
