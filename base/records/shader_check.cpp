@@ -53,20 +53,20 @@ void define_shader_check_tables(Tables& tables) {
     t.key("value", "words of --arguments, or numbers");
     t.key("by", "where the value is from").one_of(kShaderBindings);
   });
-  tables.define<ShaderCheck>("A shader function against a model: 'lobelia check-shader'.",
-                             [](auto& t) {
-                               t.kind("shader-check");
-                               t.key("file").not_empty();
-                               t.key("sha256", "of the file");
-                               t.key("bindings").if_any();
-                               t.key("api").one_of(kShaderApis);
-                               t.key("device", "as the driver names it");
-                               t.key("verdict").one_of(kShaderVerdicts);
-                               t.key("errors", "by exponent").items(1);
-                               t.key("explanation", "missing if it passes");
-                               t.key("halfFloats", "by exponent").if_any();
-                               t.key("remarks", "what could not be measured or was changed, and why").if_any();
-                             });
+  tables.define<ShaderCheck>(
+      "A shader function against a model: 'lobelia check-shader'.", [](auto& t) {
+        t.kind("shader-check");
+        t.key("file").not_empty();
+        t.key("sha256", "of the file");
+        t.key("bindings").if_any();
+        t.key("api").one_of(kShaderApis);
+        t.key("device", "as the driver names it");
+        t.key("verdict").one_of(kShaderVerdicts);
+        t.key("errors", "by exponent").items(1);
+        t.key("explanation", "missing if it passes");
+        t.key("halfFloats", "by exponent").if_any();
+        t.key("remarks", "what could not be measured or was changed, and why").if_any();
+      });
 }
 
 }  // namespace lobelia::records

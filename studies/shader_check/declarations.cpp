@@ -50,19 +50,26 @@ class Parser {
     return i < list_.size() ? list_.tokens[i].text : std::string_view();
   }
   bool is(std::size_t i, std::string_view text) const { return list_.is(i, text); }
+  // A text may end anywhere, so a place may lie behind the last token.
+
   /// Behind the bracket that opens at `i`.
-  std::size_t behind(std::size_t i) const { return std::min(list_.partner[i] + 1, list_.size()); }
+  std::size_t behind(std::size_t i) const {
+    return i < list_.size() ? std::min(list_.partner[i] + 1, list_.size()) : list_.size();
+  }
   std::string text_of(std::size_t begin, std::size_t end) const {
+    end = std::min(end, list_.size());
     if (begin >= end) return "";
     const std::size_t from = list_.tokens[begin].at;
     return std::string(plain_.substr(from, list_.tokens[end - 1].end() - from));
   }
   void replace(std::size_t begin, std::size_t end, std::string text = {}) {
+    end = std::min(end, list_.size());
     if (begin < end)
       found_.edits.push_back(
           {list_.tokens[begin].at, list_.tokens[end - 1].end(), std::move(text)});
   }
   void insert(std::size_t i, std::string text) {
+    if (i >= list_.size()) return;
     found_.edits.push_back({list_.tokens[i].at, list_.tokens[i].at, std::move(text)});
   }
 
@@ -405,9 +412,9 @@ class Parser {
     while (is(at_, ":")) {
       const std::size_t begin = at_;
       made.semantic = word(at_ + 1);
-      at_ += 2;
+      at_ = std::min(at_ + 2, list_.size());
       if (is(at_, "(")) at_ = behind(at_);
-      if (changes) replace(begin, std::min(at_, list_.size()));
+      if (changes) replace(begin, at_);
     }
     if (!is(at_, "<")) return;
     const std::size_t begin = at_;

@@ -25,13 +25,18 @@ class WgslParser {
     return i < list_.size() ? list_.tokens[i].text : std::string_view();
   }
   bool is(std::size_t i, std::string_view text) const { return list_.is(i, text); }
-  std::size_t behind(std::size_t i) const { return std::min(list_.partner[i] + 1, list_.size()); }
+  // A text may end anywhere, so a place may lie behind the last token.
+  std::size_t behind(std::size_t i) const {
+    return i < list_.size() ? std::min(list_.partner[i] + 1, list_.size()) : list_.size();
+  }
   std::string text_of(std::size_t begin, std::size_t end) const {
+    end = std::min(end, list_.size());
     if (begin >= end) return "";
     const std::size_t from = list_.tokens[begin].at;
     return std::string(plain_.substr(from, list_.tokens[end - 1].end() - from));
   }
   void replace(std::size_t begin, std::size_t end, std::string text = {}) {
+    end = std::min(end, list_.size());
     if (begin < end)
       found_.edits.push_back(
           {list_.tokens[begin].at, list_.tokens[end - 1].end(), std::move(text)});
