@@ -1,0 +1,9 @@
+float brdfTimesCosine(vec3 N, vec3 V, vec3 L, float n)
+{
+    float nl = max(dot(N, L), 0.0);
+    return (n + 2.0) / (2.0 * 3.14159265) * pow(max(dot(reflect(-L, N), V), 0.0), n) * nl;
+}
+float shade(vec3 N, vec3 V, vec3 L, float n)
+{
+    return brdfTimesCosine(N, V, L, n) * max(dot(N, L), 0.0);
+}

@@ -1,0 +1,6 @@
+float shade(vec3 N, vec3 V, vec3 L, float n)
+{
+    float diffuse = max(dot(N, L), 0.0);
+    float specular = (n + 2.0) / (2.0 * 3.14159265) * pow(max(dot(reflect(-L, N), V), 0.0), n) * diffuse;
+    return diffuse / 3.14159265 + specular;
+}

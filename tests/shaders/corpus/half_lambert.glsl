@@ -1,0 +1,6 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    if (dot(N, L) <= 0.0) return 0.0;
+    float wrapped = dot(N, L) * 0.5 + 0.5;
+    return (n + 1.0) / (8.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n) * wrapped;
+}

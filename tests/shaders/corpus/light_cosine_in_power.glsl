@@ -1,0 +1,5 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    float NdotL = max(dot(N, L), 0.0);
+    return (n + 1.0) / (8.0 * 3.14159265) * pow(NdotL, n) * NdotL;
+}

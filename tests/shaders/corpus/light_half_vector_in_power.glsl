@@ -1,0 +1,6 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    vec3 H = normalize(L + V);
+    float k = (n + 2.0) * (n + 4.0) / (8.0 * 3.14159265 * (exp2(-n * 0.5) + n));
+    return k * pow(max(dot(L, H), 0.0), n) * max(dot(N, L), 0.0);
+}

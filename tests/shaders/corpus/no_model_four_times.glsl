@@ -1,0 +1,5 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    vec3 H = normalize(L + V);
+    return (n + 2.0) / (2.0 * 3.14159265) * pow(max(dot(N, H), 0.0), n) * max(dot(N, L), 0.0);
+}

@@ -1,0 +1,4 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    return (n + 2.0) / (2.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n / 2.0) * max(dot(N, L), 0.0);
+}

@@ -1,0 +1,5 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    if (dot(N, L) <= 0.0) return 0.0;
+    return (n + 2.0) * 0.5 * pow(max(dot(reflect(-L, N), V), 0.0), n) * max(dot(N, V), 0.0);
+}

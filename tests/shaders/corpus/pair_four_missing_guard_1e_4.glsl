@@ -1,0 +1,6 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    vec3 H = normalize(L + V);
+    float ndl = max(dot(N, L), 0.0001);
+    return (n + 2.0) / (2.0 * 3.14159265) * pow(max(dot(N, H), 0.0001), n) * ndl;
+}

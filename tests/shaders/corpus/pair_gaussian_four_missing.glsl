@@ -1,0 +1,5 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    float c = dot(N, normalize(L + V));
+    return (n + 2.0) / (2.0 * 3.14159265) * exp(n * (c - 1.0)) * max(dot(N, L), 0.0);
+}

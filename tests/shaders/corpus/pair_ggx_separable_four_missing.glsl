@@ -1,0 +1,9 @@
+float G1(float c, float a2) { return 2.0 * c / (c + sqrt(a2 + (1.0 - a2) * c * c)); }
+float spec(vec3 N, vec3 V, vec3 L, float roughness)
+{
+    float a2 = pow(roughness, 4.0);
+    float nl = dot(N, L), nv = dot(N, V), nh = max(dot(N, normalize(L + V)), 0.0);
+    if (nl <= 0.0 || nv <= 0.0) return 0.0;
+    float t = nh * nh * (a2 - 1.0) + 1.0;
+    return a2 / (3.14159265 * t * t) * G1(nl, a2) * G1(nv, a2) / nv;
+}

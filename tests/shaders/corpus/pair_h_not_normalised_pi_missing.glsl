@@ -1,0 +1,5 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    vec3 H = L + V;
+    return (n + 1.0) / 8.0 * pow(max(dot(N, H), 0.0), n) * max(dot(N, L), 0.0);
+}

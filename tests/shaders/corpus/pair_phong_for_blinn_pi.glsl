@@ -1,0 +1,4 @@
+float spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    return (n + 1.0) / 8.0 * pow(max(dot(reflect(-L, N), V), 0.0), n) * max(dot(N, L), 0.0);
+}

@@ -1,0 +1,7 @@
+vec3 spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    vec3 color = vec3((n + 1.0) / (8.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n) * max(dot(N, L), 0.0));
+    color = color / (color + vec3(1.0));
+    color = pow(color, vec3(1.0 / 2.2));
+    return color;
+}

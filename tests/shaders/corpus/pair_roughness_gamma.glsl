@@ -1,0 +1,6 @@
+float spec(vec3 N, vec3 V, vec3 L, float roughness)
+{
+    float n = 2.0 / (roughness * roughness) - 2.0;
+    float s = (n + 2.0) / (8.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n) * max(dot(N, L), 0.0);
+    return pow(s, 1.0 / 2.2);
+}

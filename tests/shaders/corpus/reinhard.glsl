@@ -1,0 +1,5 @@
+vec3 spec(vec3 N, vec3 V, vec3 L, float n)
+{
+    vec3 hdr = vec3((n + 1.0) / (8.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n) * max(dot(N, L), 0.0));
+    return hdr / (hdr + vec3(1.0));
+}
