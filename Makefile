@@ -15,7 +15,7 @@ SEED    ?= $(shell date +%s)
 
 # SETUP=no: for systems whose packages have other names than Debian's.
 setup     = $(if $(filter no,$(SETUP)),@:,@tools/setup)
-for_tests = build engines browser shaders slurm python packaging docs
+for_tests = build engines browser shaders wasm slurm python packaging docs
 npm       = $(if $(filter no,$(SETUP)),@:,@tools/web)
 configure = cmake --preset "$(PRESET)"
 # One more than processors: some tests wait.
@@ -36,7 +36,7 @@ help: ## this list
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	@echo 'make gallery: from a fresh clone about 14 minutes on 2 cores (a first page after 11), plus 1 or 2 to install missing packages'
-	$(setup) build engines
+	$(setup) build engines wasm
 	$(npm)
 	$(configure)
 	@tools/tell 'make gallery: building' '' $(build) --target lobelia lobelia_image_io
