@@ -107,6 +107,9 @@ void define_page_tables(Tables& tables) {
     t.key("ways", "as in PackedShown");
     t.key("pixels", "all pictures as gallery/packed/packed_pixels.hpp has them; base64, deflated");
   });
+  tables.define<ExplorerPage>("The explorer's page.", [](auto& t) {
+    t.key("search", "studies/shader_check/web as WebAssembly; base64, deflated").if_any();
+  });
   tables.define<InlinedPage>("A page of a report in one file.", [](auto& t) {
     t.key("main", "markup of its <main>").most_text(std::size_t{1} << 26);
   });

@@ -173,8 +173,10 @@ struct InlinedPage {
   std::string view, title, main;
 };
 
-/// The explorer's page has the whole HighlightTables.
-using ExplorerPage = HighlightTables;
+struct ExplorerPage {
+  HighlightTables tables;
+  std::string search;
+};
 
 void define_page_tables(Tables& tables);
 

@@ -9,10 +9,14 @@
 #include "base/records/words.hpp"
 #include "base/words/numbers.hpp"
 #include "base/words/svg_chart.hpp"
+#include "gallery/packed/packing.hpp"
 #include "gallery/pages/page.hpp"
 #include "gallery/pages/page_text.hpp"
 #include "gallery/pages/views.hpp"
 
+namespace lobelia::embedded {
+extern const std::string_view shader_search;
+}
 namespace lobelia::gallery::explorer_page {
 namespace {
 
@@ -186,7 +190,8 @@ records::ExplorerPage page_data(HighlightTables tables) {
   for (records::ModelTable& model : tables.models)
     model.coefficient = math_text(model.coefficient), model.angle = math_text(model.angle);
   for (LobeTable& lobe : tables.lobes) lobe.formula = math_text(lobe.formula);
-  return tables;
+  return {std::move(tables),
+          embedded::shader_search.empty() ? "" : packed_bytes(embedded::shader_search)};
 }
 
 void write(ViewPage& page, const HighlightTables& tables, const RunFiles&) {

@@ -19,7 +19,8 @@ void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
   const Tag head(html, "head");
   html.empty("meta", {{"charset", "utf-8"}});
   // First, because it governs only what follows.
-  meta("http-equiv", "Content-Security-Policy", kContentSecurityPolicy);
+  meta("http-equiv", "Content-Security-Policy",
+       fmt::format(kContentSecurityPolicy, frame.runs_web_assembly ? kRunsWebAssembly : ""));
   meta("name", "viewport", "width=device-width, initial-scale=1");
   meta("name", "color-scheme", "light dark");
   meta("name", "referrer", "no-referrer");

@@ -12,8 +12,10 @@ inline constexpr char kScriptFile[] = "gallery.js";
 /// A page may load files beside it and pictures made by its own script, and nothing from a network.
 /// `file:` is for browsers that give each local file an origin of its own; a page from a server cannot use it.
 inline constexpr char kContentSecurityPolicy[] =
-    "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' data: file:; "
+    "default-src 'none'; script-src 'self' file:{}; style-src 'self' file:; img-src 'self' data: file:; "
     "base-uri 'none'; form-action 'none'";
+/// Among the sources of scripts, for a page that runs WebAssembly from its data.
+inline constexpr char kRunsWebAssembly[] = " 'wasm-unsafe-eval'";
 
 /// A page in the site's navigation.
 struct PageLink {
@@ -37,6 +39,7 @@ struct PageFrame {
   std::string made_by;  ///< program that wrote the records, for the foot
   std::string data;     ///< file of data_script() beside the page; empty: none
   std::string picture;  ///< preview picture, from the site's directory; may be empty
+  bool runs_web_assembly = false;
 };
 
 /// The whole document around the content of <main>.

@@ -117,9 +117,10 @@ std::string single_file(const fs::path& directory, const std::string& title,
       html.empty("meta", {{"charset", "utf-8"}});
       html.empty("meta",
                  {{"http-equiv", "Content-Security-Policy"},
-                  {"content", fmt::format("default-src 'none'; script-src {}; style-src {}; "
+                  {"content", fmt::format("default-src 'none'; script-src {}{}; style-src {}; "
                                           "img-src data:; base-uri 'none'; form-action 'none'",
-                                          source_hash(script), source_hash(style))}});
+                                          source_hash(script), is_report ? "" : kRunsWebAssembly,
+                                          source_hash(style))}});
       html.empty("meta",
                  {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
       html.empty("meta",

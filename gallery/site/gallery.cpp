@@ -212,6 +212,7 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
       findings.push_back({{std::string(view->file), std::string(view->title)}, page.finding});
     PageFrame frame{
         page.title, std::string(view->name), "", std::string(view->file), page.made_by, "", ""};
+    frame.runs_web_assembly = view == &explorer_view;
     if (!page.data.empty()) {
       frame.data = std::string(view->name) + ".data.js";
       publisher.write(frame.data, data_script("page", page.data));

@@ -363,3 +363,10 @@ export interface HighlightTables {
   /** paragraphs of 'lobelia export --language glsl --coefficient argument' */
   shaderParts: string[];
 }
+
+/** The explorer's page. */
+export interface ExplorerPage {
+  tables: HighlightTables;
+  /** studies/shader_check/web as WebAssembly; base64, deflated */
+  search?: string;
+}

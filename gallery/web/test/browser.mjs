@@ -46,11 +46,18 @@ export async function serve(site) {
 export const fileUrl = (site) => pathToFileURL(site).href + '/';
 
 /** SwiftShader draws WebGL where there is no graphics processor. Pages are put together without it. */
-export const launch = (args = []) => chromium.launch({
+const options = (args) => ({
   executablePath: '/usr/bin/chromium',
   timeout: kHang,
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--disable-gpu-compositing', ...args],
 });
+export const launch = (args = []) => chromium.launch(options(args));
+
+/** A browser that kill() ends even while a shader of it runs for ever. */
+export async function launchToKill() {
+  const server = await chromium.launchServer(options([]));
+  return { browser: await chromium.connect(server.wsEndpoint()), kill: () => server.kill() };
+}
 
 export async function open(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce', ...options });

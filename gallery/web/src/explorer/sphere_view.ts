@@ -7,13 +7,17 @@ import { fileName } from '../lib/figure_text';
 import { clamp, numberText } from '../lib/numbers';
 import type { HashState } from '../lib/state';
 import { GlSphere } from './gl_sphere';
-import { seenFrom, type Surface, vectorAt } from './sphere';
+import { seenFrom, type Surface, type Vector, vectorAt } from './sphere';
 
 export const kSphereState = { light: '-40,30', camera: '0,0', wipe: '36.5', ev: '0', show: 'wipe', px: '512' };
 type Key = keyof typeof kSphereState;
+
+/** Another source of B's radiances than an exported shader, by pixels from the bottom row. */
+export interface Second { readonly isShown: boolean; readonly isStuck: boolean; sphere(size: number, toLight: Vector): Promise<Float32Array | undefined> }
 type Turned = 'light' | 'camera';
 
 const kSizes = ['256', '512', '1024'], kMostStops = 12;
+const kMostOwn = 512;  // pixels of a reader's shader, each of which is a point in the search's memory
 const kSteps = 4095;
 /** As the canvas has it in a number of 32 bits. */
 const pixelOf = (red: number, green: number, blue: number): number => (255 << 24 | blue << 16 | green << 8 | red) >>> 0;
@@ -48,10 +52,12 @@ export class SphereView {
   private pixels: Float32Array | undefined;
   private size = 0;
   private pending = false;
+  private waiting = false;
+  private again = false;
   readonly element: HTMLElement;
 
   /** `about` names the highlights that are shown, A first. */
-  constructor(private readonly state: HashState<Key>, private readonly about: () => readonly string[]) {
+  constructor(private readonly state: HashState<Key>, private readonly about: () => readonly string[], private readonly second: Second) {
     const change = (changes: Partial<Record<Key, string>>): void => { state.set(changes); this.refresh(this.surfaces); };
     this.drag = select('Drag turns', [{ value: 'light', label: 'the light' }, { value: 'camera', label: 'the camera' }], 'light',
       (v) => { this.turned = v as Turned; }, 'sphere-drag');
@@ -59,7 +65,6 @@ export class SphereView {
     this.px = select('Pixels', kSizes.map((v) => ({ value: v, label: `${v} × ${v}` })), '512', (px) => change({ px }), 'sphere-px');
     this.wipe.addEventListener('input', () => change({ wipe: this.wipe.value }));
     this.ev.addEventListener('input', () => change({ ev: this.ev.value }));
-    this.attempt(() => { this.painter = new GlSphere(); });
     this.listen();
     this.element = h('figure', { class: 'chart-figure sphere' }, h('h2', {}, 'The sphere'),
       h('div', { class: 'controls' }, this.drag.element, this.show.element, this.px.element,
@@ -76,7 +81,7 @@ export class SphereView {
       const read = this.state.get(what).split(',').map(Number), isGood = read.length === 2 && read.every(Number.isFinite);
       this.turn(what, isGood ? read : kSphereState[what].split(',').map(Number));
     }
-    const both = surfaces.length > 1;
+    const both = this.both();
     this.show.set(this.isDifference() ? 'difference' : 'wipe');
     this.show.element.hidden = !both;
     this.wipe.value = this.state.get('wipe');
@@ -102,7 +107,7 @@ export class SphereView {
   private figure(): FigureSource {
     this.paint();
     if (!this.pixels) throw new Error('There is no picture.');
-    const { size, pixels, canvas } = this, names = this.about(), isDifference = this.isDifference(), both = this.surfaces.length > 1;
+    const { size, pixels, canvas } = this, names = this.about(), isDifference = this.isDifference(), both = this.both();
     const top = Math.max(...this.surfaces.map((s) => s.coefficient)) / 2 ** this.stops(), kTicks = [0, 0.25, 0.5, 0.75, 1];
     const css = (colours: Uint32Array, share: number): string => {
       const colour = colours[Math.round(kSteps * share)]!;
@@ -113,7 +118,7 @@ export class SphereView {
     return {
       name: fileName('sphere', ...names, isDifference ? 'difference' : ''),
       title: isDifference ? 'A − B on the sphere' : 'The sphere',
-      caption: `${names.map((name, i) => `${'AB'[i]}: ${name}`).join('; ')}. ${this.numbers.textContent} Exposure ${numberText(this.stops())} stops.`,
+      caption: `${names.map((name, i) => `${this.names()[i]}: ${name}`).join('; ')}. ${this.numbers.textContent} Exposure ${numberText(this.stops())} stops.`,
       csv: {
         what: `radiance at ${size} × ${size} pixels`,
         rows: function* () {
@@ -134,15 +139,21 @@ export class SphereView {
     };
   }
 
-  private isDifference(): boolean { return this.surfaces.length > 1 && this.state.get('show') === 'difference'; }
+  private both(): boolean { return this.surfaces.length > 1 || this.second.isShown; }
+  private names(): readonly string[] { return ['A', this.second.isShown ? 'yours' : 'B']; }
+  private isDifference(): boolean { return this.both() && this.state.get('show') === 'difference'; }
   private stops(): number { return clamp(this.state.number('ev'), -kMostStops, kMostStops); }
-  private split(): number { return this.surfaces.length > 1 ? clamp(this.state.number('wipe'), 0, 100) / 100 : 1; }
-  private pixelCount(): number { return Number(kSizes.includes(this.state.get('px')) ? this.state.get('px') : kSphereState.px); }
+  private split(): number { return this.both() ? clamp(this.state.number('wipe'), 0, 100) / 100 : 1; }
+  private pixelCount(): number {
+    const asked = Number(kSizes.includes(this.state.get('px')) ? this.state.get('px') : kSphereState.px);
+    return this.second.isShown ? Math.min(asked, kMostOwn) : asked;
+  }
 
   /** Without WebGL 2 there is no sphere. */
   private attempt(act: () => void): void {
     try {
       act();
+      this.note.textContent = '';
     } catch (error) {
       this.painter = undefined;
       this.note.textContent = `There is no picture, because the shader does not run here: ${error instanceof Error ? error.message : ''}. Curves and numbers need no shader.`;
@@ -169,7 +180,7 @@ export class SphereView {
     stage.addEventListener('pointerdown', (event) => {
       if (event.button !== 0 || !event.isPrimary) return;
       const box = stage.getBoundingClientRect(), away = Math.abs(event.clientX - box.left - box.width * this.split());
-      const isDivider = away < 10 && this.surfaces.length > 1 && !this.isDifference();
+      const isDivider = away < 10 && this.both() && !this.isDifference();
       const other = this.turned === 'light' ? 'camera' : 'light';
       held = { x: event.clientX, y: event.clientY, what: isDivider ? 'wipe' : event.shiftKey ? other : this.turned };
       stage.setPointerCapture(event.pointerId);
@@ -211,19 +222,39 @@ export class SphereView {
   }
 
   private paint(): void {
-    if (!this.surfaces.length) return;
+    if (!this.surfaces.length || this.second.isStuck) return;
     const light = seenFrom(this.angles.camera, vectorAt(this.angles.light)), size = this.pixelCount();
-    this.attempt(() => { this.pixels = this.painter?.paint(size, light, this.surfaces); });
+    const own = this.second.isShown;
+    this.attempt(() => {
+      // A browser may take one from a page whose other shader did not end.
+      this.painter ??= new GlSphere();
+      this.pixels = this.painter.paint(size, light, own ? this.surfaces.slice(0, 1) : this.surfaces);
+    });
     this.size = size;
-    if (this.pixels && this.painter) this.draw(this.pixels);
+    if (!this.pixels || !this.painter) return;
+    if (own) void this.paintSecond(size, light, this.pixels);
+    else this.draw(this.pixels);
+  }
+
+  /** The last direction alone, if the light is dragged faster than the shader runs. */
+  private async paintSecond(size: number, light: Vector, pixels: Float32Array): Promise<void> {
+    this.again = this.waiting;
+    if (this.waiting) return;
+    this.waiting = true;
+    const values = await this.second.sphere(size, light);
+    this.waiting = false;
+    if (this.again) this.schedule();
+    if (!values || size !== this.size) return;
+    for (let i = 0; i < values.length; ++i) pixels[4 * i + 1] = values[i]!;
+    this.draw(pixels);
   }
 
   private draw(pixels: Float32Array): void {
-    const { size, canvas } = this, both = this.surfaces.length > 1, isDifference = this.isDifference();
+    const { size, canvas } = this, both = this.both(), [nameA, nameB] = this.names(), isDifference = this.isDifference();
     if (canvas.width !== size) canvas.width = canvas.height = size;
     const context = canvas.getContext('2d')!, image = context.createImageData(size, size), shown = new Uint32Array(image.data.buffer);
     const gain = kSteps * 2 ** this.stops() / Math.max(...this.surfaces.map((s) => s.coefficient)), split = this.split() * size;
-    const step = (v: number): number => Math.min(kSteps, Math.round(v * gain));
+    const step = (v: number): number => clamp(Math.round(v * gain), 0, kSteps) || 0;
     const most = [0, 0];
     let largest = 0, place = 0;
     for (let y = 0, i = 0; y < size; ++y) for (let x = 0; x < size; ++x, ++i) {
@@ -239,11 +270,11 @@ export class SphereView {
       context.fillStyle = '#fff';
       context.fillRect(split - size / 512, 0, size / 256, size);
     }
-    const words = isDifference ? ['orange: A is larger', 'blue: B is larger'] : both ? ['A', 'B'] : ['A'];
+    const words = isDifference ? [`orange: ${nameA} is larger`, `blue: ${nameB} is larger`] : this.names().slice(0, both ? 2 : 1);
     this.tags.replaceChildren(...words.map((word) => h('span', {}, word)));
-    const brightest = most.slice(0, this.surfaces.length).map((v, i) => `${'AB'[i]} ${numberText(v, 4)}`).join(', ');
+    const brightest = most.slice(0, both ? 2 : 1).map((v, i) => `${this.names()[i]} ${numberText(v, 4)}`).join(', ');
     const peak = Math.max(...most), down = size - 1 - Math.floor(place / size);
     this.numbers.textContent = `${this.where('light')}. ${this.where('camera')}. Brightest pixel: ${brightest}.` + (both
-      ? ` Largest difference A − B: ${numberText(largest)}${peak > 0 ? `, ${numberText(100 * Math.abs(largest) / peak)} % of the brighter` : ''}, at pixel (${place % size}, ${down}).` : '');
+      ? ` Largest difference ${nameA} − ${nameB}: ${numberText(largest)}${peak > 0 ? `, ${numberText(100 * Math.abs(largest) / peak)} % of the brighter` : ''}, at pixel (${place % size}, ${down}).` : '');
   }
 }

@@ -1,4 +1,5 @@
 // One highlight, or two over each other: sphere, curve, coefficient, peak, width, energy and cost at any exponent.
+import { kOwnState, OwnShader } from '../explorer/own_shader';
 import { kSphereState, SphereView } from '../explorer/sphere_view';
 import { AtExponent } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
@@ -7,10 +8,10 @@ import { announce, button, h, select } from '../lib/dom';
 import { saveFile } from '../lib/figure';
 import { clamp, numberText } from '../lib/numbers';
 import { HashState } from '../lib/state';
-import type { HighlightTable, HighlightTables, LobeTable, ModelTable, Operations } from '../records';
+import type { ExplorerPage, HighlightTable, HighlightTables, LobeTable, ModelTable, Operations } from '../records';
 
 type Field = 'lobe' | 'model' | 'norm' | 'n';
-type Key = Field | `${Field}2` | 'two' | 'scale' | 'unit' | keyof typeof kSphereState;
+type Key = Field | `${Field}2` | 'two' | 'scale' | 'unit' | keyof typeof kSphereState | keyof typeof kOwnState;
 const kSides = [{ suffix: '', name: 'A' }, { suffix: '2', name: 'B' }] as const;
 const kDecades = 6;  // below the peak on a logarithmic axis
 
@@ -26,8 +27,8 @@ function operationsText(lobe: Operations, model: Operations): string {
 }
 
 export function explorer(main: HTMLElement): void {
-  const data = pageData<HighlightTables>(), place = main.querySelector('#explorer');
-  if (data && place) new Explorer(data, place);
+  const data = pageData<ExplorerPage>(), place = main.querySelector('#explorer');
+  if (data && place) new Explorer(data.tables, data.search ?? '', place);
 }
 
 class Explorer {
@@ -40,18 +41,24 @@ class Explorer {
   private readonly two = h('input', { type: 'checkbox', id: 'two' });
   private readonly scale;
   private readonly unit;
+  private readonly own;
   private readonly sphere;
   private readonly note = h('p', { class: 'stage-note' });
 
-  constructor(private readonly tables: HighlightTables, place: Element) {
+  constructor(private readonly tables: HighlightTables, search: string, place: Element) {
     const middle = tables.exponents.includes(64) ? '64' : String(tables.exponents[0]);
     const model = tables.models[1]?.name ?? '', lobe = tables.lobes[0]?.name ?? '';
     const other = tables.lobes.find((l) => l.name === 'cs16')?.name ?? lobe;
     this.state = new HashState<Key>({
       lobe, model, norm: 'exact', n: middle, lobe2: other, model2: model, norm2: 'exact', n2: middle,
-      two: '1', scale: 'linear', unit: 'radiance', ...kSphereState,
+      two: '1', scale: 'linear', unit: 'radiance', ...kSphereState, ...kOwnState,
     });
-    this.sphere = new SphereView(this.state, () => this.shown().map((c) => `${c.model.title}, ${c.lobe.title}, n = ${numberText(c.at.n, 4)}`));
+    const titleOf = (c: Chosen): string => `${c.model.title}, ${c.lobe.title}, n = ${numberText(c.at.n, 4)}`;
+    this.own = new OwnShader(this.state, search, () => {
+      const a = this.chosen(kSides[0]);
+      return a && { model: a.model.name, lobe: a.lobe.name, normalisation: a.norm, exponent: a.at.n, title: titleOf(a) };
+    }, () => this.refresh());
+    this.sphere = new SphereView(this.state, () => (this.own.isShown ? [...this.shown().slice(0, 1).map(titleOf), 'your shader'] : this.shown().map(titleOf)), this.own);
     this.panels = kSides.map((side) => this.panel(side));
     this.two.addEventListener('change', () => this.change({ two: this.two.checked ? '1' : '0' }));
     this.scale = select('Scale', [{ value: 'linear', label: 'linear' }, { value: 'log', label: 'logarithmic' }], 'linear',
@@ -59,7 +66,7 @@ class Explorer {
     this.unit = select('Values', [{ value: 'radiance', label: 'radiance' }, { value: 'peak', label: 'of the peak' }], 'radiance',
       (unit) => this.change({ unit }), 'explorer-unit');
     place.append(h('section', { class: 'explorer', 'aria-label': 'Explorer' },
-      h('div', { class: 'choices' }, ...this.panels.map((p) => p.element)),
+      h('div', { class: 'choices' }, ...this.panels.map((p) => p.element), this.own.element),
       h('div', { class: 'figure-grid' }, this.sphere.element,
         h('figure', { class: 'chart-figure' }, h('h2', {}, 'The highlight'),
           h('div', { class: 'controls' }, this.scale.element, this.unit.element), this.curves.element,
@@ -161,6 +168,7 @@ class Explorer {
     this.unit.set(this.state.get('unit'));
     for (const panel of this.panels) panel.refresh();
     const shown = this.shown();
+    this.own.refresh();
     this.sphere.refresh(shown.map((c) => ({
       model: c.model, n: c.at.n, shader: c.shader, coefficient: c.at.coefficient(c.highlight, c.norm),
     })));
