@@ -17,6 +17,7 @@ constexpr double kNear = 0.1;
 
 /// Nearer to 1, a factor is float32's rounding.
 constexpr double kNoFactor = 5e-6;
+constexpr double kSeenFactor = 3;  // of a nearest: so many times what remains
 
 /// With digits enough to see how far it is from 1.
 std::string times(double factor) {
@@ -77,7 +78,11 @@ std::string nearest_text(const Candidate& nearest) {
     return fmt::format(
         "no known mistake explains it, and none comes near: {:.0f} % of the peak remain",
         100 * left);
-  const std::string words = words_of(nearest), factor = factor_text(nearest.factors);
+  // A factor that is as near to 1 as what remains is no news.
+  const bool is_seen = std::ranges::any_of(nearest.factors, [&](const records::ShaderFactor& at) {
+    return std::abs(std::log(at.factor)) > kSeenFactor * left;
+  });
+  const std::string words = words_of(nearest), factor = is_seen ? factor_text(nearest.factors) : "";
   return fmt::format(
       "no known mistake explains it; the nearest{}{}; what remains is {:.1e} of the peak",
       words.empty() ? " is the model itself" : ": " + words, factor.empty() ? "" : ", " + factor,
@@ -173,6 +178,8 @@ Identified search_all(std::span<const Highlight> highlights, const Observed& obs
   // A fitted number is as simple as a mistake.
   if (!(best().best().score() < 1.5))
     for (const auto& search : searches) search->try_two_mistakes();
+  if (!best().best().explains())
+    for (const auto& search : searches) search->try_microfacet_forms();
   return {best().best().highlight, explanation_of(best(), observed, values.is_half, differs)};
 }
 

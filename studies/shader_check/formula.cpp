@@ -11,7 +11,9 @@ namespace {
 
 Point reversed(Point point, Reversed which) {
   if (which == Reversed::kLight) point.to_light = -point.to_light;
-  if (which == Reversed::kNormal) point.normal = -point.normal;
+  if (which == Reversed::kNormal ||
+      (which == Reversed::kToLight && dot(point.normal, point.to_light) < 0))
+    point.normal = -point.normal;
   if (which == Reversed::kEye) point.to_eye = -point.to_eye;
   return point;
 }
@@ -53,7 +55,7 @@ double factor_of(const Formula& formula, const Geometry& g) {
   const double l = std::abs(light), v = std::abs(g.n_dot_v);
   if (formula.geometry_term) factor *= formula.geometry_term(l, v, g, formula.exponent);
   if (formula.guard) factor *= 4 * l * v / formula.guard(4 * l * v);
-  if (formula.f0 >= 0) factor *= formula.f0 + (1 - formula.f0) * fresnel_power(g);
+  if (formula.f0 >= 0) factor *= formula.f0 + (1 - formula.f0) * formula.fresnel(g);
   return std::isfinite(factor) ? factor : 0;
 }
 
@@ -62,7 +64,8 @@ double factor_of(const Formula& formula, const Geometry& g) {
 Seen::Seen(const Point& point)
     : geometry{Geometry(point), Geometry(reversed(point, Reversed::kLight)),
                Geometry(reversed(point, Reversed::kNormal)),
-               Geometry(reversed(point, Reversed::kEye))} {}
+               Geometry(reversed(point, Reversed::kEye)),
+               Geometry(reversed(point, Reversed::kToLight))} {}
 
 double fresnel_power(const Geometry& geometry) {
   const double one_minus = 1 - std::max(geometry.v_dot_h, 0.0), square = one_minus * one_minus;

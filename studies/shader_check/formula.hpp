@@ -9,13 +9,16 @@
 
 namespace lobelia::shader_check {
 
-/// A point's geometry as a shader sees it that reverses none or one of its vectors.
-enum class Reversed : std::uint8_t { kNone, kLight, kNormal, kEye, kCount };
+/// A point's geometry as a shader sees it that reverses none or one of its vectors; kToLight: N where L is behind.
+enum class Reversed : std::uint8_t { kNone, kLight, kNormal, kEye, kToLight, kCount };
 struct Seen {
   explicit Seen(const Point& point);
   Geometry geometry[std::size_t(Reversed::kCount)];
   const Geometry& as(Reversed reversed) const { return geometry[std::size_t(reversed)]; }
 };
+
+/// Schlick's (1 - V.H)^5.
+double fresnel_power(const Geometry& geometry);
 
 /// A formula before its coefficient: lobe * cosine * geometry term * guard * Fresnel.
 struct Formula {
@@ -33,6 +36,7 @@ struct Formula {
                           double exponent) = nullptr;  ///< G / ((N.L) (N.V)); null: 1
   double (*guard)(double product) = nullptr;  ///< of 4 (N.L) (N.V): in place of that product
   double f0 = -1;                             ///< of Schlick's Fresnel factor; below 0: none
+  double (*fresnel)(const Geometry&) = fresnel_power;
   enum class Behind : std::uint8_t {
     kBlack,
     kSigned,
@@ -53,9 +57,6 @@ std::vector<double> lobe_values(const Formula& formula, std::span<const Seen> po
 std::vector<double> factor_values(const Formula& formula, std::span<const Seen> points);
 /// Their product.
 std::vector<double> shape_values(const Formula& formula, std::span<const Seen> points);
-
-/// Schlick's (1 - V.H)^5.
-double fresnel_power(const Geometry& geometry);
 
 /// Height-correlated Smith shadowing of GGX, over (N.L) (N.V).
 double smith_term(double n_dot_l, double n_dot_v, const Geometry& geometry, double exponent);

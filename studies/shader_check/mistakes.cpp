@@ -66,6 +66,8 @@ void add_directions(Mistakes& all) {
   add("light-reversed", "L is reversed: it points to the surface", Reversed::kLight);
   add("normal-reversed", "N is reversed: it points into the surface", Reversed::kNormal);
   add("eye-reversed", "V is reversed: it points to the surface", Reversed::kEye);
+  add("two-sided", "it is two-sided: N is turned to the light, so light leaks through from behind",
+      Reversed::kToLight);
 }
 
 void add_behind(Mistakes& all) {

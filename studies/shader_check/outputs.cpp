@@ -29,6 +29,17 @@ double inverse_aces(double y) {
   return (-b + std::sqrt(std::max(b * b - 4 * a * c, 0.0))) / (2 * a);
 }
 
+/// Hejl's filmic curve, which has a gamma in it.
+constexpr double kHejlA = 6.2, kHejlB = 0.5, kHejlC = 1.7, kHejlD = 0.06, kHejlBlack = 0.004;
+double hejl(double v) {
+  const double x = std::max(v - kHejlBlack, 0.0);
+  return x * (kHejlA * x + kHejlB) / (x * (kHejlA * x + kHejlC) + kHejlD);
+}
+double inverse_hejl(double y) {
+  const double a = kHejlA * (1 - y), b = kHejlB - kHejlC * y, c = -kHejlD * y;
+  return kHejlBlack + (-b + std::sqrt(std::max(b * b - 4 * a * c, 0.0))) / (2 * a);
+}
+
 constexpr std::string_view kSrgb = "the result is encoded as sRGB, where light is expected",
                            kTwice = "the result is encoded as sRGB twice";
 constexpr OutputStep kSteps[] = {
@@ -56,6 +67,8 @@ constexpr OutputStep kSteps[] = {
      1, true, 2e-7},
     {"tone-mapped", "the result is tone-mapped by Narkowicz's ACES curve", aces, inverse_aces, 0, 1,
      true},
+    {"tone-mapped", "the result is tone-mapped by Hejl's filmic curve, with its gamma", hejl,
+     inverse_hejl, 0, 1, true, 1e-7},
 };
 
 constexpr std::string_view kExposure[] = {

@@ -171,6 +171,7 @@ const std::vector<double>& Samples::factor(std::size_t group, const Formula& f) 
                 bits(f.geometry_term),
                 bits(f.guard),
                 std::bit_cast<std::uint64_t>(f.f0),
+                bits(f.fresnel),
                 std::bit_cast<std::uint64_t>(f.least_light),
                 std::uint64_t(f.behind) + 8u * std::uint64_t(f.reversed)};
   if (!keeps_) factors_.clear();

@@ -100,6 +100,14 @@ void Search::try_two_mistakes() {
   for (const Chain& chain : chains_of_two()) try_shape({}, chain);
 }
 
+void Search::try_microfacet_forms() {
+  for (const Mistake* term : usable_) {
+    if (term->part != Part::kGeometryTerm) continue;
+    for (const Mistake* guard : usable_)
+      if (guard->part == Part::kGuard) try_fits({term, guard}, {}, false);
+  }
+}
+
 void Search::try_shape(const Shape& shape, const Chain& chain, Additions additions) {
   const std::vector<Formula> formula = formulas(shape);
   Searched::Values& some = values_.some;
@@ -140,7 +148,8 @@ void Search::try_fits(const Shape& shape, const Chain& chain, bool with_exponent
     more.push_back(mistake);
     try_shape(more, chain);
   };
-  if (!has(shape, Part::kFresnel)) with(fitted_fresnel(shape, chain));
+  if (!has(shape, Part::kFresnel))
+    for (const Mistake* fresnel : fitted_fresnel(shape, chain)) with(fresnel);
   if (!has(shape, Part::kBehind))
     for (const Mistake* floor : fitted_floors(shape, chain)) with(floor);
   if (with_exponent) with(fitted_exponent(shape));

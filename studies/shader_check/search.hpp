@@ -47,6 +47,8 @@ class Search {
 
   void try_one_mistake();
   void try_two_mistakes();
+  /// What usual engines have together: a geometry term, a floor of the denominator and a Fresnel factor.
+  void try_microfacet_forms();
   const Candidate& best() const { return *best_; }
   /// Another explanation that is as simple and fits as well.
   const std::optional<Candidate>& other() const { return other_; }
@@ -61,7 +63,7 @@ class Search {
   void keep(Candidate candidate);
   const Mistake* keep(Mistake mistake);
   // What a number may be that the shader has in place of the model's (search_fits.cpp).
-  const Mistake* fitted_fresnel(const Shape& shape, const Chain& chain);
+  std::vector<const Mistake*> fitted_fresnel(const Shape& shape, const Chain& chain);
   std::vector<const Mistake*> fitted_floors(const Shape& shape, const Chain& chain);
   const Mistake* fitted_exponent(const Shape& shape);
   bool has(const Shape& shape, Part part) const;

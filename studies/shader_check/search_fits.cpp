@@ -20,6 +20,22 @@ std::string number(double value) {
 /// The number that is printed, because people write round ones.
 double rounded(double value) { return std::strtod(number(value).c_str(), nullptr); }
 
+double fifth_power(double cosine) {
+  const double one_minus = 1 - std::clamp(cosine, 0.0, 1.0);
+  return std::pow(one_minus, 5);
+}
+struct FresnelPower {
+  std::string_view of;
+  double (*power)(const Geometry&);
+};
+constexpr FresnelPower kFresnelPowers[] = {
+    {"", fresnel_power},
+    {" of N.V in place of V.H,", [](const Geometry& g) { return fifth_power(g.n_dot_v); }},
+    {" by Karis's power of 2,", [](const Geometry& g) {
+       const double c = std::max(g.v_dot_h, 0.0);
+       return std::exp2((-5.55473 * c - 6.98316) * c);
+     }}};
+
 /// The exponent with the smallest weighted squares that are left, of a formula at one exponent.
 double best_exponent(Formula formula, const Group& group, const Radiances& radiances) {
   const auto left = [&](double log_n) {
@@ -52,35 +68,42 @@ double best_exponent(Formula formula, const Group& group, const Radiances& radia
 
 }  // namespace
 
-const Mistake* Search::fitted_fresnel(const Shape& shape, const Chain& chain) {
+std::vector<const Mistake*> Search::fitted_fresnel(const Shape& shape, const Chain& chain) {
   const std::vector<Formula> formula = formulas(shape);
   const std::vector<Group>& groups = values_.some.samples.groups();
   const std::vector<Radiances>& radiances = values_.some.of(chain);
   const std::vector<std::vector<double>> shapes = values_.some.samples.shapes(formula);
-  // c (F0 + (1 - F0) w) as a + b w: F0 is a / (a + b).
-  double sum = 0, weights = 0;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    double aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
-    for (std::size_t i = 0; i < shapes[g].size(); ++i) {
-      const double w = radiances[g].weight[i], a = shapes[g][i],
-                   b = a * fresnel_power(groups[g].seen[i].as(formula[g].reversed)),
-                   y = radiances[g].value[i];
-      aa += w * a * a, ab += w * a * b, bb += w * b * b, ay += w * a * y, by += w * b * y;
+  std::vector<const Mistake*> all;
+  for (const auto& [of, power] : kFresnelPowers) {
+    // c (F0 + (1 - F0) w) as a + b w: F0 is a / (a + b).
+    double sum = 0, weights = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      double aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
+      for (std::size_t i = 0; i < shapes[g].size(); ++i) {
+        const double w = radiances[g].weight[i], a = shapes[g][i],
+                     b = a * power(groups[g].seen[i].as(formula[g].reversed)),
+                     y = radiances[g].value[i];
+        aa += w * a * a, ab += w * a * b, bb += w * b * b, ay += w * a * y, by += w * b * y;
+      }
+      const double determinant = aa * bb - ab * ab;
+      if (!(determinant > 1e-9 * aa * bb)) continue;
+      const double a = (ay * bb - by * ab) / determinant, b = (aa * by - ab * ay) / determinant;
+      const double c = a + b, f0 = a / c;
+      if (!(c > 0) || !(f0 > 0) || !(f0 < 1)) continue;
+      const double weight = determinant / aa * c * c;
+      sum += weight * f0, weights += weight;
     }
-    const double determinant = aa * bb - ab * ab;
-    if (!(determinant > 1e-9 * aa * bb)) continue;
-    const double a = (ay * bb - by * ab) / determinant, b = (aa * by - ab * ay) / determinant;
-    const double c = a + b, f0 = a / c;
-    if (!(c > 0) || !(f0 > 0) || !(f0 < 1)) continue;
-    const double weight = determinant / aa * c * c;
-    sum += weight * f0, weights += weight;
+    if (weights == 0) continue;
+    const double f0 = rounded(sum / weights);
+    if (f0 < 1e-4 || f0 > 0.99) continue;
+    all.push_back(keep({"fresnel", Part::kFresnel,
+                        fmt::format("a Fresnel factor{} of F0 = {} is in it", of, number(f0)),
+                        nullptr, [f0, power = power](Formula& f, double) {
+                          f.f0 = f0;
+                          f.fresnel = power;
+                        }}));
   }
-  if (weights == 0) return nullptr;
-  const double f0 = rounded(sum / weights);
-  if (f0 < 1e-4 || f0 > 0.99) return nullptr;
-  return keep({"fresnel", Part::kFresnel,
-               fmt::format("a Fresnel factor of F0 = {} is in it", number(f0)), nullptr,
-               [f0](Formula& f, double) { f.f0 = f0; }});
+  return all;
 }
 
 std::vector<const Mistake*> Search::fitted_floors(const Shape& shape, const Chain& chain) {
