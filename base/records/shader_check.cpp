@@ -32,7 +32,7 @@ void define_shader_check_tables(Tables& tables) {
       });
   tables.define<ShaderOddities>("Numbers of calls with odd results.", [](auto& t) {
     t.key("outsideSupport", "not 0 where the model is");
-    t.key("unwritten", "without any result");
+    t.key("unwritten", "without any result where the model is not 0");
     t.key("coloured", "with a colour that is not grey; red was compared");
     t.key("hardCalls", "in directions such as L = -V, where only a finite number is asked for");
     t.key("belowCalls", "with the eye below the surface, where no model is defined");
@@ -58,6 +58,7 @@ void define_shader_check_tables(Tables& tables) {
         t.kind("shader-check");
         t.key("file").not_empty();
         t.key("sha256", "of the file");
+        t.key("modelFound", "none was given: it is the simplest to explain it by");
         t.key("bindings").if_any();
         t.key("api").one_of(kShaderApis);
         t.key("device", "as the driver names it");

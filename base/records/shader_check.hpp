@@ -7,7 +7,8 @@
 namespace lobelia::records {
 
 inline constexpr std::string_view kShaderVerdicts[] = {"passes", "differs"};
-inline constexpr std::string_view kShaderBindings[] = {"set", "name", "own value", "result"};
+inline constexpr std::string_view kShaderBindings[] = {"set", "name", "trial", "own value",
+                                                       "result"};
 inline constexpr std::string_view kShaderApis[] = {"egl", "vulkan", "webgpu"};
 
 /// A call of the function.
@@ -64,6 +65,7 @@ struct ShaderCheck {
   std::vector<std::string> command;
   std::string file, sha256, language, function, arguments;
   std::string model, lobe, normalisation;
+  bool model_found = false;
   std::vector<ShaderBinding> bindings;
   std::string api, device, driver;
   std::string verdict;

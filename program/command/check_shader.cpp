@@ -12,6 +12,7 @@
 #include "studies/shader_check/annotation.hpp"
 #include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/check.hpp"
+#include "studies/shader_check/explain.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -20,8 +21,8 @@ constexpr std::uint64_t kMaxShaderBytes = 1 << 20;
 constexpr std::string_view kOnNames[] = {"egl", "vulkan"};
 
 struct CheckShaderArguments {
-  std::string file, function, arguments, model, lobe = "cosine", normalisation = "exact", language,
-                                                on, json, html, format = "text";
+  std::string file, function, arguments, model, lobe, normalisation = "exact", language, on, json,
+                                                      html, format = "text";
   std::vector<double> exponents{std::begin(shader_check::kUsualExponents),
                                 std::end(shader_check::kUsualExponents)};
   std::vector<std::string> settings;
@@ -82,8 +83,44 @@ shader_check::bsdf::BsdfRequest bsdf_request_of(const CheckShaderArguments& opti
   return request;
 }
 
+bool has_coefficient(const Highlight& highlight) {
+  try {
+    radiance_coefficient(highlight);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// That of --model, or all that the other options allow.
+void add_highlight(const CheckShaderArguments& options, shader_check::Request& request) {
+  Highlight& highlight = request.highlight;
+  highlight.lobe = chosen(options.lobe.empty() ? "cosine" : options.lobe, "--lobe", lobe_names(),
+                          allowed_lobes(), find_lobe);
+  highlight.normalisation =
+      chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
+  if (!options.model.empty()) {
+    highlight.model = chosen(options.model, "--model", model_names(), find_model);
+    radiance_coefficient(highlight);  // throws if the paper has none
+    return;
+  }
+  std::vector<Highlight> all = shader_check::all_highlights();
+  if (!options.lobe.empty()) {
+    all.clear();
+    for (const ModelId model : all_models()) all.push_back({model, highlight.lobe});
+  }
+  for (Highlight& one : all) {
+    one.normalisation = highlight.normalisation;
+    if (one.normalisation == Normalisation::kExact || has_coefficient(one))
+      request.highlights.push_back(one);
+  }
+  if (request.highlights.empty())
+    throw Error(ExitCode::kUsage, "--normalisation {}: the paper has none for the lobe {}",
+                name(highlight.normalisation), info(highlight.lobe).name);
+  highlight = request.highlights.front();
+}
+
 shader_check::Request request_of(const CheckShaderArguments& options) {
-  if (options.model.empty()) throw Error(ExitCode::kUsage, "--model is required");
   shader_check::Request request;
   request.file = options.file;
   request.language = language_of(options);
@@ -92,11 +129,7 @@ shader_check::Request request_of(const CheckShaderArguments& options) {
   request.arguments = options.arguments;
   for (const std::string& setting : options.settings)
     request.settings.push_back(setting_of(setting));
-  request.highlight.model = chosen(options.model, "--model", model_names(), find_model);
-  request.highlight.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
-  request.highlight.normalisation =
-      chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
-  radiance_coefficient(request.highlight);  // throws if the paper has none
+  add_highlight(options, request);
   request.exponents = options.exponents;
   // In the middle: neither a blur nor a dot.
   std::ranges::sort(request.exponents);
@@ -154,8 +187,8 @@ std::string arguments_help() {
 }  // namespace
 
 void add_check_shader(CLI::App& app, ExitCode& exit_code) {
-  auto* command =
-      app.add_subcommand("check-shader", "Run a shader function and compare it with a model");
+  auto* command = app.add_subcommand(
+      "check-shader", "Run a shader function, and say which model it is and what is wrong");
   auto options = std::make_shared<CheckShaderArguments>();
   OptionGroup shader(*command, "Shader");
   shader.add("FILE", options->file, "FILE", "GLSL, HLSL or WGSL with the function")->required();
@@ -182,9 +215,11 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       ->check(between(0.1, 3600))
       ->capture_default_str();
   OptionGroup model(*command, "Model");
-  model.add("--model", options->model, "", fmt::format("Model: {}", join(model_names())));
-  model.add("--lobe", options->lobe, "", fmt::format("Lobe: {}", allowed_lobes()))
-      ->capture_default_str();
+  model.add("--model", options->model, "",
+            fmt::format("Model: {}; otherwise the one that explains the shader best",
+                        join(model_names())));
+  model.add("--lobe", options->lobe, "",
+            fmt::format("Lobe: {}; otherwise cosine, and without --model any", allowed_lobes()));
   model
       .add("--normalisation", options->normalisation, "",
            fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))
@@ -213,6 +248,8 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       "that are found by name.\n"
       "\n"
       "Examples:\n"
+      "  lobelia check-shader mine.glsl\n"
+      "  lobelia check-shader mine.frag --set lightColor=1,1,1\n"
       "  lobelia check-shader mine.glsl --function myHighlight --model blinn_phong_ndf\n"
       "  lobelia check-shader mine.frag --set lightColor=1,1,1 --model modified_phong\n"
       "  lobelia check-shader mine.hlsl --function spec --arguments cosine,roughness --model phong_rdf\n"

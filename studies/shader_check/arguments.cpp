@@ -105,6 +105,8 @@ std::vector<std::string> Arguments::add(const std::string& word, std::string_vie
         throw Error(ExitCode::kUsage, "{}: '{}' is unknown; allowed: {}, and numbers{}", option,
                     printable(word), join(names), did_you_mean(name, names));
       }
+      if (!knows_model_ && is_one_of(name, {"coefficient", "s", "cosine"}))
+        throw Error(ExitCode::kUsage, "{}: '{}' depends on the model; give --model", option, name);
       made.info = std::size_t(found - kInfos.begin());
     }
     constexpr std::size_t kMost = 40;
@@ -148,13 +150,16 @@ std::size_t Arguments::components() const {
   return count;
 }
 
-bool Arguments::is_of_roughness() const {
-  const auto has = [&](std::string_view name) {
-    return std::ranges::any_of(given_, [&](const Given& given) {
-      return given.info < kInfos.size() && kInfos[given.info].name == name;
-    });
-  };
-  return has("alpha") || has("alpha2") || has("roughness") || has("smoothness");
+bool is_of_roughness(std::span<const std::string> words) {
+  return std::ranges::any_of(words, [](const std::string& word) {
+    return is_one_of(word, {"alpha", "alpha2", "roughness", "smoothness"});
+  });
+}
+
+bool depends_on_model(std::span<const std::string> words) {
+  return std::ranges::any_of(words, [](const std::string& word) {
+    return is_one_of(word, {"coefficient", "s", "cosine"});
+  });
 }
 
 bool takes_word(const Declared& parameter) {
@@ -170,8 +175,8 @@ std::vector<std::string> likely_arguments(const FunctionDeclaration& function, s
     if (meaning.values.empty() && (shape.rows == 3 || shape.rows == 4) && shape.columns == 1)
       meaning.values = {"N", "V", "L", "H", "R"};
     if (meaning.values.empty() && shape.rows == 1)
-      meaning.values = {"n",   "roughness", "alpha", "cosine",      "N.H", "N.L",
-                        "N.V", "V.H",       "gloss", "coefficient", "1"};
+      meaning.values = {"n",      "roughness", "alpha", "gloss", "coefficient", "1",
+                        "cosine", "N.H",       "N.L",   "N.V",   "V.H"};
     if (meaning.values.empty()) meaning.values = {"0"};
     choices.push_back(std::move(meaning.values));
   }

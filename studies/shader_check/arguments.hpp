@@ -23,16 +23,17 @@ std::span<const ArgumentInfo> argument_infos();
 /// The values that a call takes, each as components of a point.
 class Arguments {
  public:
-  explicit Arguments(const Highlight& highlight) : highlight_(highlight) {}
+  /// `knows_model`: false while it is looked for, so that no value may depend on it.
+  explicit Arguments(const Highlight& highlight, bool knows_model = true)
+      : highlight_(highlight), knows_model_(knows_model) {}
+  void set_highlight(const Highlight& highlight) { highlight_ = highlight; }
 
   /// The components of "N", "-L" or "1.5", as expressions. Throws Error(kUsage) that names `option`, the unknown word and
-  /// what is allowed, or that says that there are too many.
+  /// what is allowed, or that says that there are too many, or that the model is not known.
   std::vector<std::string> add(const std::string& word, std::string_view option);
 
   /// The points' components: first those that common_vectors() and the like name, then those that were added.
   ShaderPoints of(const std::vector<Point>& points) const;
-  /// Whether a function with them can know the exponent only through a roughness.
-  bool is_of_roughness() const;
 
  private:
   struct Given {
@@ -44,7 +45,12 @@ class Arguments {
   std::size_t components() const;
   std::vector<Given> given_;
   Highlight highlight_;
+  bool knows_model_;
 };
+
+/// Whether a function with these words can know the exponent only through a roughness.
+bool is_of_roughness(std::span<const std::string> words);
+bool depends_on_model(std::span<const std::string> words);
 
 /// Lists for --arguments, the likeliest first, at most `most`: a word for each parameter that is a number or a vector and
 /// not only a result. Names and types that tell leave one word.

@@ -7,14 +7,17 @@
 #include "base/system/error.hpp"
 #include "base/system/sha256.hpp"
 #include "base/words/text.hpp"
+#include "studies/shader_check/choose_call.hpp"
 #include "studies/shader_check/own_shader.hpp"
-#include "studies/shader_check/shader_call.hpp"
 
 namespace lobelia::shader_check {
 namespace {
 
 /// A loop of Mesa's 65535 rounds takes hundreds of times as long as pow.
 constexpr double kOfALoop = 100;
+
+/// Three vectors and a number in every likely order.
+constexpr std::size_t kMostCalls = 48;
 
 void add_energy(Judge& judge, const Plan& plan, records::ShaderCheck& record) {
   for (const auto& [part, exponent, degrees, solid_angles] : plan.hemispheres) {
@@ -89,10 +92,15 @@ void require_end(const Request& request, const ShaderSource& source, const std::
 
 }  // namespace
 
-Check check_shader(const Request& request) {
-  const ShaderCall call = shader_call(request);
+Check check_shader(const Request& given) {
+  ShaderCalls calls = shader_calls(given, kMostCalls);
+  const ChosenCall chosen = choose_call(given, calls);
+  Request request = given;
+  request.highlight = chosen.highlight;
+  const ShaderCall& call = calls.calls[chosen.call];
   const ShaderSource& source = call.source;
-  const Arguments& arguments = call.arguments;
+  Arguments& arguments = calls.arguments;
+  arguments.set_highlight(chosen.highlight);
   Plan plan = judged_plan(request.highlight, request.exponents, request.shown_exponent);
   add_hemispheres(request.highlight, request.exponents, plan);
   const ShaderPoints points = arguments.of(plan.points);
@@ -117,6 +125,7 @@ Check check_shader(const Request& request) {
   record.model = info(request.highlight.model).name;
   record.lobe = info(request.highlight.lobe).name;
   record.normalisation = name(request.highlight.normalisation);
+  record.model_found = !request.highlights.empty();
   record.api = kShaderApiNames[std::size_t(request.api)];
   record.device = run.device;
   record.driver = run.driver;
@@ -132,7 +141,7 @@ Check check_shader(const Request& request) {
   const std::vector<Point> domain(begin, begin + std::ptrdiff_t(plan.domain.count));
   const ShaderPoints domain_points = arguments.of(domain);
   if (!passes) require_end(request, source, call.function, domain_points);
-  if (!passes) record.explanation = judge.explanation(record.oddities, arguments.is_of_roughness());
+  if (!passes) record.explanation = judge.explanation(record.oddities, call.of_roughness);
   add_energy(judge, plan, record);
   add_spheres(plan, judge, check);
   add_curve(plan, judge, check);

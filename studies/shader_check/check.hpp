@@ -19,9 +19,11 @@ struct Request {
   std::string function, arguments;  ///< "" if they are to be found
   /// Values of variables and parameters: {"material.shininess", "n"}, {"lightColor", "1,1,1"}.
   std::vector<std::pair<std::string, std::string>> settings = {};
-  Highlight highlight;                      ///< without its exponent
-  std::vector<double> exponents;            ///< not empty
-  double shown_exponent = 64;               ///< of pictures and the curve
+  Highlight highlight;  ///< without its exponent
+  std::vector<Highlight> highlights =
+      {};                         ///< to find the shader's own among, in place of `highlight`
+  std::vector<double> exponents;  ///< not empty
+  double shown_exponent = 64;     ///< of pictures and the curve
   TimeLimit time_limit = kShaderTimeLimit;  ///< of all that compiles and runs shaders, together
   bool costs = true;                        ///< whether to measure half floats and instructions
   bool worst_spheres =
@@ -51,7 +53,7 @@ struct Check {
   double shown_exponent = 64;
 };
 
-/// Throws what shader_call() does, Error(kInput) if the function does not compile, does not end or
+/// Throws what shader_calls() does, Error(kInput) if the function does not compile, does not end or
 /// writes nothing, and Error(kEngine) if nothing runs shaders here.
 Check check_shader(const Request& request);
 

@@ -49,7 +49,8 @@ class Judge {
 
   double model(std::size_t i);
   double peak(double exponent) { return coefficients_.at(exponent); }
-  double theirs(std::size_t i) const { return double(values_[i].r); }
+  /// 0 of a discarded call.
+  double theirs(std::size_t i) const { return values_[i].written ? double(values_[i].r) : 0; }
 
   /// Sets the verdict, errors and oddities of the record.
   void judge(records::ShaderCheck& record);

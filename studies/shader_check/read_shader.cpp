@@ -7,6 +7,7 @@
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
 #include "studies/shader_check/arguments.hpp"
+#include "studies/shader_check/meanings.hpp"
 #include "studies/shader_check/program_text.hpp"
 #include "studies/shader_check/textures.hpp"
 
@@ -134,6 +135,15 @@ std::vector<std::string> functions_of(const ReadShader& shader) {
   return {names.begin(), names.end()};
 }
 
+bool takes_vector(const Declarations& declared, const Declared& parameter) {
+  const auto is_vector = [](const Declared& one) {
+    const TypeShape shape = shape_of(one.type);
+    return one.is_in && shape.rows >= 3 && shape.columns == 1;
+  };
+  const StructDeclaration* made = declared.find_struct(parameter.type);
+  return made ? std::ranges::any_of(made->members, is_vector) : is_vector(parameter);
+}
+
 std::string found_name(const ReadShader& shader, std::string_view file) {
   std::set<std::string> entries;
   for (const FunctionDeclaration& one : shader.declared.functions)
@@ -143,6 +153,15 @@ std::string found_name(const ReadShader& shader, std::string_view file) {
                                  roots = uncalled_functions(shader.tokens, shader.declared);
   if (all.size() == 1) return all.front();
   if (roots.size() == 1) return roots.front();
+  // Helpers that nothing calls take numbers.
+  std::set<std::string> of_vectors;
+  for (const FunctionDeclaration& one : shader.declared.functions)
+    if (one.has_body && std::ranges::count(roots, one.name) > 0 &&
+        std::ranges::any_of(one.parameters, [&](const Declared& parameter) {
+          return takes_vector(shader.declared, parameter);
+        }))
+      of_vectors.insert(one.name);
+  if (of_vectors.size() == 1) return *of_vectors.begin();
   if (!all.empty())
     throw Error(ExitCode::kUsage, "{}: --function has to say which one is meant: {}", file,
                 join(names_of(roots.empty() ? all : roots)));

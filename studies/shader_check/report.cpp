@@ -42,7 +42,7 @@ std::string oddities_text(const records::ShaderOddities& odd) {
   };
   add(odd.nan, "are NaN" + place_text(odd.first_nonfinite));
   add(odd.infinite, "are infinite" + (odd.nan > 0 ? "" : place_text(odd.first_nonfinite)));
-  add(odd.unwritten, "are discarded");
+  add(odd.unwritten, "are discarded where the model is not 0");
   add(odd.outside_support, "are not 0 where the model is" + place_text(odd.first_outside));
   add(odd.negative, "are negative");
   add(odd.coloured, "are coloured; red was compared");
@@ -92,7 +92,11 @@ std::string bindings_text(const std::vector<records::ShaderBinding>& bindings) {
         part += (part.empty() ? "" : ", ") +
                 (by == "result" ? one.name : fmt::format("{} = {}", one.name, one.value));
     if (!part.empty())
-      text += fmt::format("{}: {}\n", by == "name" ? "by name" : by == "set" ? "--set" : by, part);
+      text += fmt::format("{}: {}\n",
+                          by == "name" || by == "trial" ? fmt::format("by {}", by)
+                          : by == "set"                 ? "--set"
+                                                        : std::string(by),
+                          part);
   }
   return text.empty() ? "" : text + "\n";
 }
@@ -109,12 +113,19 @@ std::string cost_text(const std::vector<records::ShaderCost>& costs) {
 }  // namespace
 
 std::string report_text(const records::ShaderCheck& record) {
-  std::string text = fmt::format("{}: {}({}) against {}, lobe {}, normalisation {}\non {}, {}\n\n",
-                                 record.file, record.function, record.arguments, record.model,
-                                 record.lobe, record.normalisation, record.device, record.driver);
+  std::string text =
+      fmt::format("{}: {}({}) {} {}, lobe {}, normalisation {}\non {}, {}\n\n", record.file,
+                  record.function, record.arguments,
+                  !record.model_found          ? "against"
+                  : record.verdict == "passes" ? "is"
+                                               : "is nearest to",
+                  record.model, record.lobe, record.normalisation, record.device, record.driver);
   text += bindings_text(record.bindings);
-  text += record.verdict == "passes" ? "passes: it is the model within the rounding of float32\n"
-                                     : "differs: ";
+  const std::string model = record.model_found ? record.model : "the model";
+  text += record.verdict == "passes"
+              ? fmt::format("passes: it is {} within the rounding of float32\n", model)
+          : record.model_found ? fmt::format("differs from {}: ", model)
+                               : "differs: ";
   if (record.explanation) {
     text += record.explanation->sentence + "\n";
     if (!record.explanation->mistakes.empty()) {

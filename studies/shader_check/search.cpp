@@ -48,14 +48,18 @@ const std::vector<Radiances>& Searched::Values::of(const Chain& chain) {
   return at->second;
 }
 
-Search::Search(const Highlight& highlight, Searched& values, bool of_roughness, bool other_lobes)
+Search::Search(const Highlight& highlight, Searched& values, bool of_roughness, bool other_models)
     : highlight_(highlight), values_(values), names_(highlight) {
   for (const Mistake& mistake : mistakes()) {
     if (mistake.applies && !mistake.applies(highlight)) continue;
     if (mistake.of_roughness && !of_roughness) continue;
+    // Beside models of the other angle that is no mistake.
+    if (!other_models &&
+        (mistake.id == "mirror-for-half-vector" || mistake.id == "half-vector-for-mirror"))
+      continue;
     if (mistake.part == Part::kLobe) {
       const Mistake* const made[] = {&mistake};
-      if (!other_lobes || formula_of(highlight_, 1, made).lobe == highlight_.lobe) continue;
+      if (!other_models || formula_of(highlight_, 1, made).lobe == highlight_.lobe) continue;
     }
     usable_.push_back(&mistake);
   }

@@ -43,7 +43,7 @@ class Searched {
 /// The search for one model. Rounds go from the simple to the involved; each keeps the best that was found.
 class Search {
  public:
-  Search(const Highlight& highlight, Searched& values, bool of_roughness, bool other_lobes);
+  Search(const Highlight& highlight, Searched& values, bool of_roughness, bool other_models);
 
   void try_one_mistake();
   void try_two_mistakes();

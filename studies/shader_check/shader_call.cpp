@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
@@ -25,21 +26,21 @@ bool is_within(std::string_view path, std::string_view within) {
 
 class Binder {
  public:
-  explicit Binder(const Request& request)
+  /// `list`: what the parameters take. `is_tried`: it is one of several.
+  Binder(const Request& request, const ReadShader& shader, const FunctionDeclaration& function,
+         const std::string& list, bool is_tried, Arguments& arguments)
       : request_(request),
         file_(printable_path(request.file)),
         language_(request.language),
-        shader_(read_shader({language_, file_, request.text, {}})),
-        function_(chosen_function(
-            *shader_, file_, request.function,
-            request.arguments.empty() ? -1 : int(split(request.arguments, ",").size()))),
+        shader_(&shader),
+        function_(function),
         reach_(reach_of(function_.name, shader_->tokens, shader_->declared, shader_->dropped)),
-        call_{{language_, file_, shader_->text, {}}, Arguments(request.highlight), "", "", {}, {}} {
-  }
+        arguments_(arguments),
+        is_tried_(is_tried),
+        call_{{language_, file_, shader_->text, {}}, function.name, list, false, {}, {}} {}
 
   ShaderCall made() {
     refuse_derivatives();
-    call_.function = function_.name;
     call_.source.prelude = shader_->prelude;
     if (shader_->has_low_precision)
       call_.remarks.push_back("its mediump and lowp numbers were compared in highp");
@@ -51,6 +52,7 @@ class Binder {
     initialise();
     call_.source.setup = declarations_ + statements_;
     add_result(fmt::format("{}({})", inner_name(function_.name, language_), arguments));
+    call_.of_roughness = is_of_roughness(words_);
     return std::move(call_);
   }
 
@@ -76,6 +78,11 @@ class Binder {
         {printable(path), printable(type), printable(value), std::string(how)});
   }
 
+  std::vector<std::string> add(const std::string& word, std::string_view option) {
+    words_.push_back(word);
+    return arguments_.add(word, option);
+  }
+
   /// Components of "1,0.5,0", of "L" or of "L,1". Numbers are written as they are.
   std::vector<std::string> components_of(const std::string& value, std::string_view option) {
     std::vector<std::string> all;
@@ -85,7 +92,7 @@ class Binder {
         all.push_back(number_text(number));
         continue;
       }
-      const std::vector<std::string> more = call_.arguments.add(word, option);
+      const std::vector<std::string> more = add(word, option);
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
@@ -117,6 +124,25 @@ class Binder {
     refuse(fmt::format("--set {}: there is no such variable; {}{}", printable(name),
                        known.empty() ? "there is none to set" : "it has " + join(known),
                        did_you_mean(name, known)));
+  }
+
+  /// "nrm" as "input.nrm", if that is the only member of that name in a parameter or a variable.
+  std::string full_path(const std::string& path) const {
+    const std::vector<std::string> parts = parts_of_path(path);
+    const auto is_first = [&](const Declared& one) { return one.name == parts.front(); };
+    if (parts.empty() || std::ranges::any_of(function_.parameters, is_first) ||
+        std::ranges::any_of(shader_->declared.globals, is_first))
+      return path;
+    std::vector<std::string> found;
+    const auto look_in = [&](const Declared& one) {
+      const StructDeclaration* made = shader_->declared.find_struct(one.type);
+      if (made && !one.name.empty() && one.dimensions.empty() &&
+          std::ranges::any_of(made->members, is_first))
+        found.push_back(one.name + "." + path);
+    };
+    std::ranges::for_each(function_.parameters, look_in);
+    std::ranges::for_each(shader_->declared.globals, look_in);
+    return found.size() == 1 ? found.front() : path;
   }
 
   Target target_of(const std::string& path) const {
@@ -153,7 +179,8 @@ class Binder {
     return target;
   }
 
-  void apply(const std::string& path, const std::string& value) {
+  void apply(const std::string& given, const std::string& value) {
+    const std::string path = full_path(given);
     const Target target = target_of(path);
     const Declared& at = target.declared;
     const bool is_texture = is_texture_type(at.type, language_);
@@ -283,19 +310,6 @@ class Binder {
 
   // Parameters
 
-  std::vector<std::string> words_of(bool& are_given) {
-    are_given = !request_.arguments.empty();
-    call_.list = request_.arguments;
-    if (!are_given) {
-      const std::vector<std::string> lists = likely_arguments(function_, 1);
-      if (lists.empty()) refuse(fmt::format("{} takes too many parameters", function_.name));
-      call_.list = lists.front();
-    }
-    std::vector<std::string> words = split(call_.list, ",");
-    for (const std::string& word : words) call_.arguments.add(word, kArgumentsOption);
-    return words;
-  }
-
   [[noreturn]] void refuse_count(std::size_t words) const {
     std::string takes;
     for (const Declared& one : function_.parameters)
@@ -305,8 +319,9 @@ class Binder {
   }
 
   std::string bind_parameters() {
-    bool are_given = false;
-    const std::vector<std::string> words = words_of(are_given);
+    const bool are_given = !request_.arguments.empty();
+    const std::vector<std::string> words = split(call_.list, ",");
+    for (const std::string& word : words) add(word, kArgumentsOption);
     std::size_t used = 0;
     std::string arguments;
     for (std::size_t i = 0; i < function_.parameters.size(); ++i) {
@@ -322,7 +337,10 @@ class Binder {
             (are_given ? used == words.size() : !meaning_of(one.name, shape_of(one.type)).is_told))
           break;
         if (used == words.size()) refuse_count(words.size());
-        text = argument(one, words[used++]);
+        text = argument(one, words[used]);
+        if (is_tried_ && !is_set && !meaning_of(one.name, shape_of(one.type)).is_told)
+          note(path, one.type, words[used], "trial");
+        ++used;
       } else if (may_be_left && one.is_in) {
         break;
       }
@@ -347,7 +365,7 @@ class Binder {
   }
 
   std::string argument(const Declared& parameter, const std::string& word) {
-    const std::vector<std::string> components = call_.arguments.add(word, kArgumentsOption);
+    const std::vector<std::string> components = add(word, kArgumentsOption);
     const std::string text = value_text(parameter.type, components, language_);
     if (text.empty())
       refuse(fmt::format("--arguments: '{}' has {} components, which does not fit {}",
@@ -435,17 +453,43 @@ class Binder {
   const Request& request_;
   std::string file_;
   ShaderText language_;
-  std::unique_ptr<ReadShader> shader_;
+  const ReadShader* shader_;
   const FunctionDeclaration& function_;
   Reach reach_;
+  Arguments& arguments_;
+  bool is_tried_;
   ShaderCall call_;
   std::string declarations_, statements_;
-  std::vector<std::string> set_, missing_, suggestions_;
+  std::vector<std::string> words_, set_, missing_, suggestions_;
   int leaves_ = 0;
 };
 
 }  // namespace
 
-ShaderCall shader_call(const Request& request) { return Binder(request).made(); }
+ShaderCalls shader_calls(const Request& request, std::size_t most) {
+  const std::string file = printable_path(request.file);
+  const auto shader = read_shader({request.language, file, request.text, {}});
+  const FunctionDeclaration& function =
+      chosen_function(*shader, file, request.function,
+                      request.arguments.empty() ? -1 : int(split(request.arguments, ",").size()));
+  const std::vector<std::string> lists =
+      request.arguments.empty() ? likely_arguments(function, most) : std::vector{request.arguments};
+  if (lists.empty())
+    throw Error(ExitCode::kUsage, "{}: {} takes too many parameters", file, function.name);
+  ShaderCalls all{{}, Arguments(request.highlight, request.highlights.empty())};
+  std::set<std::string> texts;
+  for (const std::string& list : lists) {
+    if (lists.size() > 1 && !request.highlights.empty() && depends_on_model(split(list, ",")))
+      continue;
+    ShaderCall call =
+        Binder(request, *shader, function, list, lists.size() > 1, all.arguments).made();
+    if (texts.insert(call.source.setup + call.source.calls.front()).second)
+      all.calls.push_back(std::move(call));
+  }
+  if (all.calls.empty())
+    throw Error(ExitCode::kUsage, "{}: what {} takes depends on the model; give --model", file,
+                function.name);
+  return all;
+}
 
 }  // namespace lobelia::shader_check

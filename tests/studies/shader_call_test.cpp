@@ -6,6 +6,7 @@
 #include "base/system/error.hpp"
 #include "base/words/text.hpp"
 #include "studies/shader_check/check.hpp"
+#include "studies/shader_check/explain.hpp"
 #include "tests/shaders/shader_runner.hpp"
 #include "tests/test.hpp"
 
@@ -282,6 +283,100 @@ TEST_F(NeedsWebGpu, RightShadersOfWgslPassHoweverTheyGetTheirValues) {
   expect_right(wgsl_shaders(), ShaderText::kWgsl, ShaderApi::kWebGpu);
 }
 
+records::ShaderCheck checked(const std::string& text,
+                             std::vector<std::pair<std::string, std::string>> settings = {},
+                             const char* arguments = "") {
+  shader_check::Request request =
+      request_of({"", text, std::move(settings)}, ShaderText::kGlsl, ShaderApi::kEgl);
+  request.arguments = arguments;
+  request.exponents = {4, 64};
+  return shader_check::check_shader(request).record;
+}
+
+TEST_F(ShaderCall, TriesTheMeaningsOfNamesThatTellNothing) {
+  std::vector<std::string> words{"L", "N", "V"};
+  do {
+    const std::string text = fmt::format(
+        "float f(vec3 p0, vec3 p1, vec3 p2, float p3) {{ vec3 {} = p0, {} = p1, {} = p2; float n = "
+        "p3; {}",
+        words[0], words[1], words[2], std::string(kGlslBody).substr(1));
+    const records::ShaderCheck record = checked(text);
+    EXPECT_EQ(record.verdict, "passes");
+    EXPECT_EQ(record.arguments, fmt::format("{},{},{},n", words[0], words[1], words[2]));
+    ASSERT_FALSE(record.bindings.empty());
+    EXPECT_EQ(record.bindings[0].by, "trial");
+    EXPECT_EQ(record.bindings[0].value, words[0]);
+  } while (std::ranges::next_permutation(words).found);
+}
+
+TEST_F(ShaderCall, TriesTheRulesOfAGloss) {
+  for (const auto& [word, rule] : {std::pair{"n", "gloss"},
+                                   {"n/128", "gloss * 128.0"},
+                                   {"gloss", "exp2(10.0 * gloss + 1.0)"},
+                                   {"smoothness", "2.0 / pow(1.0 - gloss, 4.0) - 2.0"}}) {
+    const records::ShaderCheck record =
+        checked(fmt::format("float f(vec3 N, vec3 V, vec3 L, float gloss) {{ float n = {}; {}",
+                            rule, std::string(kGlslBody).substr(1)));
+    EXPECT_EQ(record.verdict, "passes") << word;
+    EXPECT_EQ(record.arguments, std::string("N,V,L,") + word);
+    EXPECT_EQ(record.bindings.size(), 1u) << "names that tell are not tried";
+  }
+}
+
+TEST_F(ShaderCall, ADiscardedCallIsAsDarkAsZero) {
+  const auto discards = [&](const char* where) {
+    return checked(
+        fmt::format("{}{{ if ({}) discard; {}", kHead, where, std::string(kGlslBody).substr(1)));
+  };
+  const records::ShaderCheck right = discards("dot(N, L) <= 0.0");
+  EXPECT_EQ(right.verdict, "passes");
+  EXPECT_EQ(right.oddities.unwritten, 0u);
+  const records::ShaderCheck wrong = discards("dot(N, L) <= 0.5");
+  EXPECT_EQ(wrong.verdict, "differs");
+  EXPECT_GT(wrong.oddities.unwritten, 0u);
+}
+
+TEST_F(ShaderCall, TakesTheOneFunctionOfVectors) {
+  const records::ShaderCheck record =
+      checked("float square(float x) { return x * x; }\n" + std::string(kHead) + kGlslBody);
+  EXPECT_EQ(record.function, "f");
+  EXPECT_EQ(record.verdict, "passes");
+}
+
+TEST_F(ShaderCall, FindsAMemberOfOneNameWithoutItsVariable) {
+  const std::string text =
+      "struct In { vec3 a; vec3 b; }; struct Other { vec3 b; }; uniform Other other;\n" +
+      std::string(kHead) + kGlslBody +
+      "float g(In i, vec3 V, vec3 L, float n) { return f(i.a, V, L, n) * i.b.x * other.b.x; }\n";
+  EXPECT_EQ(checked(text, {{"a", "N"}, {"i.b", "1"}, {"other.b", "1"}}).verdict, "passes");
+  EXPECT_THROW(checked(text, {{"a", "N"}, {"b", "1"}}), Error) << "two have a b";
+}
+
+TEST_F(ShaderCall, FindsTheModelOfAShaderOfWhichNoneIsGiven) {
+  shader_check::Request request =
+      request_of({"", std::string(kHead) + kGlslBody}, ShaderText::kGlsl, ShaderApi::kEgl);
+  request.highlights = shader_check::all_highlights();
+  request.highlight = request.highlights.front();
+  const auto record = shader_check::check_shader(request).record;
+  EXPECT_EQ(record.verdict, "passes");
+  EXPECT_TRUE(record.model_found);
+  EXPECT_EQ(record.model, "blinn_phong_heightfield");
+  EXPECT_EQ(record.lobe, "cosine");
+  request.text = std::string(kHead) +
+                 "{ vec3 H = normalize(V - L); return (n + 2.0) / 6.28318531 * pow(max(dot(N, H), "
+                 "0.0), n) * max(dot(N, -L), 0.0); }\n";
+  const auto wrong = shader_check::check_shader(request).record;
+  // Which coefficient was meant is open.
+  EXPECT_EQ(info(*find_model(wrong.model)).angle, LobeAngle::kHalfVector);
+  ASSERT_TRUE(wrong.explanation);
+  EXPECT_TRUE(wrong.explanation->complete);
+  EXPECT_EQ(wrong.explanation->mistakes.size(), 2u);
+  EXPECT_THAT(wrong.explanation->mistakes, testing::Contains("light-reversed"));
+  EXPECT_THAT(shader_check::report_text(wrong), HasSubstr("differs from " + wrong.model + ": "));
+  request.arguments = "N,V,L,coefficient";
+  EXPECT_THROW(shader_check::check_shader(request), Error);
+}
+
 std::string refusal_of(const Written& written, ShaderText language = ShaderText::kGlsl,
                        const std::string& arguments = "") {
   shader_check::Request request = request_of(written, language, ShaderApi::kVulkan);
@@ -315,7 +410,7 @@ TEST(ShaderCallWithoutADriver, RefusesInOneLine) {
             "3: mine:3: syntax error: '{' is never closed");
   EXPECT_EQ(refusal_of({"", "\nfloat f(vec3 N, float n\n{ return 1.0; }\n"}),
             "3: mine:2: syntax error: '(' is never closed");
-  EXPECT_EQ(refusal_of({"", f + "float g(float x) { return x; }\n"}),
+  EXPECT_EQ(refusal_of({"", f + "float g(vec3 x) { return x.z; }\n"}),
             "2: mine: --function has to say which one is meant: f, g");
   EXPECT_EQ(refusal_of({"", "uniform float a;\n", {}, "f"}), "3: mine: has no function");
   EXPECT_EQ(refusal_of({"", f, {}, "g"}),

@@ -48,6 +48,7 @@ void give_bits(std::string& program) {
 struct Session {
   Highlight highlight;
   ShaderCall call;
+  Arguments arguments;
   std::string function;
   Plan plan;
   ShaderProgram program;
@@ -58,7 +59,7 @@ struct Session {
   std::vector<double> vectors;
 
   void use_points() {
-    const ShaderPoints all = call.arguments.of(plan.points);
+    const ShaderPoints all = arguments.of(plan.points);
     texels = texels_of_point(all.components);
     points.assign(
         (plan.points.size() * texels + kRunnerWidth - 1) / kRunnerWidth * kRunnerWidth * 4, 0);
@@ -152,11 +153,13 @@ LOBELIA_EXPORT(begin) std::size_t search_begin(double shown_exponent) {
   request.arguments = lines[5];
   request.settings = settings_in(lines[6]);
   request.highlight = {*model, *lobe, *normalisation};
-  ShaderCall call = shader_call(request);
+  ShaderCalls calls = shader_calls(request, 1);
+  ShaderCall& call = calls.calls.front();
   const std::string function = fmt::format("{}({})", call.function, call.list);
   const std::vector<double> exponents(std::begin(kUsualExponents), std::end(kUsualExponents));
   session.emplace(Session{request.highlight,
                           std::move(call),
+                          std::move(calls.arguments),
                           function,
                           judged_plan(request.highlight, exponents, shown_exponent),
                           {},
@@ -187,8 +190,7 @@ LOBELIA_EXPORT(judge) const char* search_judge() {
   Judge judge(session->highlight, session->plan, session->values);
   judge.judge(record);
   if (record.verdict != records::kShaderVerdicts[0])
-    record.explanation =
-        judge.explanation(record.oddities, session->call.arguments.is_of_roughness());
+    record.explanation = judge.explanation(record.oddities, session->call.of_roughness);
   text = findings_text(record);
   return text.c_str();
 }
