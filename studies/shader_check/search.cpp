@@ -113,6 +113,11 @@ void Search::try_microfacet_forms() {
 }
 
 void Search::try_shape(const Shape& shape, const Chain& chain, Additions additions) {
+  // A clamp gives nothing beyond its end.
+  if (!chain.empty())
+    for (const Group& group : values_.all.samples.groups())
+      for (std::size_t i = 0; i < group.values.size(); ++i)
+        if (group.values[i] - group.errors[i] > chain.back()->most) return;
   const std::vector<Formula> formula = formulas(shape);
   Searched::Values& some = values_.some;
   const Fit of_some = shader_check::fit(some.samples.groups(), some.of(chain), formula,
