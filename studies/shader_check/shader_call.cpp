@@ -140,8 +140,8 @@ class Binder {
           std::ranges::any_of(made->members, is_first))
         found.push_back(one.name + "." + path);
     };
-    std::ranges::for_each(function_.parameters, look_in);
-    std::ranges::for_each(shader_->declared.globals, look_in);
+    for (const Declared& one : function_.parameters) look_in(one);
+    for (const Declared& one : shader_->declared.globals) look_in(one);
     return found.size() == 1 ? found.front() : path;
   }
 
