@@ -32,7 +32,7 @@ void define_bsdf_check_tables(Tables& tables) {
   });
   tables.define<BsdfExplanation>(
       "What would explain failures: with it put right, in double, the tests pass.",
-      [](auto& t) { t.key("mistake", "by name; docs/check_shader.md lists them").not_empty(); });
+      [](auto& t) { t.key("mistake", "by name; docs/shader_mistakes.md lists them").not_empty(); });
   tables.define<BsdfCheck>(
       "The functions of a BSDF, tested against each other: 'lobelia check-shader --bsdf'.",
       [](auto& t) {

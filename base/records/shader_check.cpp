@@ -16,7 +16,7 @@ void define_shader_check_tables(Tables& tables) {
   });
   tables.define<ShaderFactor>("The shader's coefficient over the model's.");
   tables.define<ShaderExplanation>("What would explain the error.", [](auto& t) {
-    t.key("mistakes", "by name, such as pi-missing; docs/check_shader.md lists them");
+    t.key("mistakes", "by name, such as pi-missing; docs/shader_mistakes.md lists them");
     t.key("complete", "it leaves nothing but rounding");
     t.key("leftOfPeak", "the largest difference left, but for the worst 2 % of the calls")
         .at_least(0)

@@ -13,6 +13,7 @@
 #include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
+#include "studies/shader_check/mistakes_document.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -233,6 +234,16 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       ->delimiter(',');
   add_bsdf_options(*command, options->bsdf);
   OptionGroup output(*command, "Output");
+  command
+      ->add_flag_callback(
+          "--list-mistakes",
+          [] {
+            fmt::print("{}", shader_check::mistakes_document());
+            throw CLI::Success();
+          },
+          "List the mistakes that have a name (docs/shader_mistakes.md)")
+      ->trigger_on_parse()  // before FILE is asked for
+      ->group("Output");
   add_json(output, options->json, "shader-check, or with --bsdf bsdf-check");
   output.add("--html", options->html, "FILE",
              "Write a page with spheres, maps of the error and a plot");
@@ -244,8 +255,8 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
   output.add_flag("--no-costs", options->no_costs, "Measure neither half floats nor instructions");
   command->footer(
       "The shader runs in a process of its own, on the first graphics processor that has a driver, or\n"
-      "else on Mesa's software renderers. docs/check_shader.md is a tutorial, and lists the mistakes\n"
-      "that are found by name.\n"
+      "else on Mesa's software renderers. docs/check_shader.md is a tutorial, docs/shader_mistakes.md\n"
+      "lists the mistakes that have a name.\n"
       "\n"
       "Examples:\n"
       "  lobelia check-shader mine.glsl\n"

@@ -81,10 +81,25 @@ constexpr auto kInfos = [] {
 
 /// N, V, L, n and the coefficient.
 constexpr std::size_t kCommon = 11, kExponentAt = 9, kCoefficientAt = 10;
+struct CommonWord {
+  std::string_view word;
+  std::size_t first, components;
+};
+constexpr CommonWord kCommonWords[] = {{"N", 0, 3},
+                                       {"V", 3, 3},
+                                       {"L", 6, 3},
+                                       {"n", kExponentAt, 1},
+                                       {"coefficient", kCoefficientAt, 1}};
 
 std::string vector_at(std::size_t at, ShaderText language) {
   return fmt::format("{}({}, {}, {})", vector_type(language), shader_component(at),
                      shader_component(at + 1), shader_component(at + 2));
+}
+
+std::vector<std::string> components_from(std::size_t first, std::size_t count) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(shader_component(first + i));
+  return texts;
 }
 
 }  // namespace
@@ -92,6 +107,9 @@ std::string vector_at(std::size_t at, ShaderText language) {
 std::span<const ArgumentInfo> argument_infos() { return kInfos; }
 
 std::vector<std::string> Arguments::add(const std::string& word, std::string_view option) {
+  const auto common = std::ranges::find(kCommonWords, word, &CommonWord::word);
+  if (common != std::end(kCommonWords) && (knows_model_ || !depends_on_model({&word, 1})))
+    return components_from(common->first, common->components);
   auto given = std::ranges::find(given_, word, &Given::word);
   if (given == given_.end()) {
     Given made{word, kInfos.size(), components(), false, 0};
@@ -105,7 +123,7 @@ std::vector<std::string> Arguments::add(const std::string& word, std::string_vie
         throw Error(ExitCode::kUsage, "{}: '{}' is unknown; allowed: {}, and numbers{}", option,
                     printable(word), join(names), did_you_mean(name, names));
       }
-      if (!knows_model_ && is_one_of(name, {"coefficient", "s", "cosine"}))
+      if (!knows_model_ && depends_on_model({&name, 1}))
         throw Error(ExitCode::kUsage, "{}: '{}' depends on the model; give --model", option, name);
       made.info = std::size_t(found - kInfos.begin());
     }
@@ -114,10 +132,8 @@ std::vector<std::string> Arguments::add(const std::string& word, std::string_vie
       throw Error(ExitCode::kUsage, "{}: at most {} different values are allowed", option, kMost);
     given = given_.insert(given_.end(), std::move(made));
   }
-  std::vector<std::string> texts;
-  const int count = given->info == kInfos.size() ? 1 : kInfos[given->info].components;
-  for (int i = 0; i < count; ++i) texts.push_back(shader_component(given->first + std::size_t(i)));
-  return texts;
+  return components_from(
+      given->first, given->info == kInfos.size() ? 1 : std::size_t(kInfos[given->info].components));
 }
 
 ShaderPoints Arguments::of(const std::vector<Point>& points) const {

@@ -157,6 +157,14 @@ std::optional<records::ShaderExplanation> empty_explanation(const Observed& obse
   return found;
 }
 
+/// Of two models that explain the same values, the one whose coefficient has a factor is told, not the one that has another
+/// coefficient.
+double rank(const Candidate& candidate) {
+  constexpr double kOfOtherCoefficient = 0.1;
+  const bool is_other = std::ranges::count(candidate.coefficient.ids, "coefficient") > 0;
+  return candidate.score() + (is_other ? kOfOtherCoefficient : 0);
+}
+
 /// `differs`: it is known not to be the model.
 Identified search_all(std::span<const Highlight> highlights, const Observed& observed,
                       bool of_roughness, bool differs) {
@@ -170,7 +178,7 @@ Identified search_all(std::span<const Highlight> highlights, const Observed& obs
     return **std::ranges::min_element(searches, [](const auto& a, const auto& b) {
       const Candidate &ours = a->best(), &theirs = b->best();
       if (ours.explains() != theirs.explains()) return ours.explains();
-      if (ours.explains()) return ours.score() < theirs.score();
+      if (ours.explains()) return rank(ours) < rank(theirs);
       return ours.fit.left.most_of_peak < theirs.fit.left.most_of_peak;
     });
   };

@@ -90,6 +90,10 @@ constexpr OutputStep kExposures[] = {multiplied<8>(kExposure[0]), multiplied<16>
 
 std::span<const OutputStep> output_steps() { return kSteps; }
 
+OutputStep clamp_to(double most, std::string_view words) {
+  return {"clamped", words, nullptr, itself, -kInfinity, most};
+}
+
 std::vector<Chain> chains_of_two() {
   std::vector<Chain> all;
   for (const OutputStep& first : kSteps) {
@@ -103,8 +107,10 @@ std::vector<Chain> chains_of_two() {
 
 Origin origin_of(const Chain& chain, double value, double error) {
   double low = value - error, high = value + error;
+  bool is_possible = true;
   for (auto step = chain.rbegin(); step != chain.rend(); ++step) {
     const OutputStep& s = **step;
+    is_possible = is_possible && low <= s.most && high >= s.least;
     const auto back = [&](double y) {
       return y >= s.most ? kInfinity : y <= s.least ? -kInfinity : s.inverse(y);
     };
@@ -117,7 +123,7 @@ Origin origin_of(const Chain& chain, double value, double error) {
   }
   if (low == kInfinity) low = value;
   if (high == -kInfinity) high = value;
-  return {value, std::max(value - low, 0.0), std::max(high - value, 0.0)};
+  return {value, std::max(value - low, 0.0), std::max(high - value, 0.0), is_possible};
 }
 
 }  // namespace lobelia::shader_check

@@ -12,7 +12,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct OutputStep {
   std::string_view id, words;
-  double (*value)(double radiance);
+  double (*value)(double radiance);  ///< null of a clamp that was found
   double (*inverse)(double value);
   /// The values that it may give. At an end of the range, any radiance beyond is possible.
   double least, most;
@@ -21,6 +21,7 @@ struct OutputStep {
   std::string_view also = {};  ///< another mistake that is in it
 };
 std::span<const OutputStep> output_steps();
+OutputStep clamp_to(double most, std::string_view words);
 
 /// One after the other. Of a tone mapping, a second step may be a multiplication.
 using Chain = std::vector<const OutputStep*>;
@@ -29,6 +30,8 @@ std::vector<Chain> chains_of_two();
 /// The radiance that gives a value, and how far it may be off below and above if the value is off by `error`.
 struct Origin {
   double radiance = 0, below = 0, above = 0;
+  bool is_possible =
+      true;  ///< false: a step gives no such value, as a clamp gives none beyond its end
 };
 Origin origin_of(const Chain& chain, double value, double error);
 

@@ -135,13 +135,16 @@ std::vector<std::string> functions_of(const ReadShader& shader) {
   return {names.begin(), names.end()};
 }
 
-bool takes_vector(const Declarations& declared, const Declared& parameter) {
-  const auto is_vector = [](const Declared& one) {
+/// Whether a parameter, or a member of it, is a vector, or with `is_vector` false a number.
+bool takes(const Declarations& declared, const FunctionDeclaration& function, bool is_vector) {
+  const auto is_one = [&](const Declared& one) {
     const TypeShape shape = shape_of(one.type);
-    return one.is_in && shape.rows >= 3 && shape.columns == 1;
+    return one.is_in && shape.columns == 1 && (is_vector ? shape.rows >= 3 : shape.rows == 1);
   };
-  const StructDeclaration* made = declared.find_struct(parameter.type);
-  return made ? std::ranges::any_of(made->members, is_vector) : is_vector(parameter);
+  return std::ranges::any_of(function.parameters, [&](const Declared& parameter) {
+    const StructDeclaration* made = declared.find_struct(parameter.type);
+    return made ? std::ranges::any_of(made->members, is_one) : is_one(parameter);
+  });
 }
 
 std::string found_name(const ReadShader& shader, std::string_view file) {
@@ -153,15 +156,17 @@ std::string found_name(const ReadShader& shader, std::string_view file) {
                                  roots = uncalled_functions(shader.tokens, shader.declared);
   if (all.size() == 1) return all.front();
   if (roots.size() == 1) return roots.front();
-  // Helpers that nothing calls take numbers.
-  std::set<std::string> of_vectors;
-  for (const FunctionDeclaration& one : shader.declared.functions)
-    if (one.has_body && std::ranges::count(roots, one.name) > 0 &&
-        std::ranges::any_of(one.parameters, [&](const Declared& parameter) {
-          return takes_vector(shader.declared, parameter);
-        }))
-      of_vectors.insert(one.name);
-  if (of_vectors.size() == 1) return *of_vectors.begin();
+  // Helpers that nothing calls take numbers alone, or vectors alone.
+  std::set<std::string> of_vectors, of_both;
+  for (const FunctionDeclaration& one : shader.declared.functions) {
+    if (!one.has_body || std::ranges::count(roots, one.name) == 0 ||
+        !takes(shader.declared, one, true))
+      continue;
+    of_vectors.insert(one.name);
+    if (takes(shader.declared, one, false)) of_both.insert(one.name);
+  }
+  for (const std::set<std::string>& found : {of_vectors, of_both})
+    if (found.size() == 1) return *found.begin();
   if (!all.empty())
     throw Error(ExitCode::kUsage, "{}: --function has to say which one is meant: {}", file,
                 join(names_of(roots.empty() ? all : roots)));

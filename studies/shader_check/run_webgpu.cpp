@@ -106,6 +106,9 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
                                    "--enable-unsafe-webgpu",
                                    "--enable-logging=stderr",
                                    "--disable-background-networking",
+                                   "--disable-component-update",
+                                   "--disable-extensions",
+                                   "--no-first-run",
                                    "--user-data-dir=" + (scratch.path() / "profile").string()};
   command.push_back(has_graphics_hardware() ? "--enable-features=Vulkan"
                                             : "--use-webgpu-adapter=swiftshader");

@@ -136,6 +136,7 @@ std::vector<Radiances> radiances_of(const std::vector<Group>& groups, const Chai
     Radiances& to = all.emplace_back();
     for (std::size_t i = 0; i < group.values.size(); ++i) {
       const Origin origin = origin_of(chain, group.values[i], group.errors[i]);
+      to.are_possible = to.are_possible && origin.is_possible;
       const double least = 1e-12 * (1e-12 + std::abs(origin.radiance));
       to.value.push_back(origin.radiance);
       to.below.push_back(std::max(origin.below, least));

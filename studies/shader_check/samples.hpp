@@ -33,6 +33,7 @@ std::vector<Group> some_of(const std::vector<Group>& groups, std::size_t count);
 struct Radiances {
   std::vector<double> value, below, above, weight;
   double largest = 0;
+  bool are_possible = true;  ///< the chain may give all the values
 };
 std::vector<Radiances> radiances_of(const std::vector<Group>& groups, const Chain& chain);
 

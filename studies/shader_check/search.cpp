@@ -1,5 +1,7 @@
 #include "studies/shader_check/search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +16,25 @@ constexpr double kMostExponent = 2e4;
 constexpr double kUnclear = 1e-2;  // the relative error of a coefficient that tells nothing
 /// Another candidate of the same cost is better if it leaves this share, and as good if it does not leave its inverse.
 constexpr double kFarLess = 0.3;
+constexpr std::ptrdiff_t kSharers = 4;  // calls that give the largest value
 
 bool is_far_off(const Left& left) { return left.most > kMoreOfASample; }
+
+/// Of one that explains nothing: a mistake that does not halve what the bare model leaves is no news.
+double distance(const Candidate& candidate) {
+  const bool is_bare = candidate.shape.empty() && candidate.chain.empty();
+  return candidate.fit.left.most_of_peak * (is_bare ? 1 : 2);
+}
+
+/// The largest value, if several calls give just that, as behind a clamp.
+double shared_largest(const std::vector<Group>& groups) {
+  double largest = 0;
+  for (const Group& group : groups)
+    for (const double value : group.values) largest = std::max(largest, value);
+  std::ptrdiff_t calls = 0;
+  for (const Group& group : groups) calls += std::ranges::count(group.values, largest);
+  return calls >= kSharers ? largest : 0;
+}
 
 }  // namespace
 
@@ -40,6 +59,12 @@ Searched::Searched(const Observed& observed)
   if (is_half) allow_half_floats(groups);
   all.samples = Samples(std::move(groups), false);
   some.samples = Samples(some_of(all.samples.groups(), kSome), true);
+  for (const OutputStep& step : output_steps()) steps.push_back(&step);
+  const double end = shared_largest(all.samples.groups());
+  if (is_half || end <= 0 || end == 1) return;
+  clamp_words_ = fmt::format("the result is clamped to {:.4g}", end);
+  clamp_ = clamp_to(end, clamp_words_);
+  steps.push_back(&clamp_);
 }
 
 const std::vector<Radiances>& Searched::Values::of(const Chain& chain) {
@@ -85,7 +110,7 @@ void Search::try_one_mistake() {
   for (const Mistake* one : usable_) try_shape({one});
   try_additions({}, {});
   try_fits({}, {}, true);
-  for (const OutputStep& step : output_steps()) try_shape({}, {&step});
+  for (const OutputStep* step : values_.steps) try_shape({}, {step});
 }
 
 void Search::try_two_mistakes() {
@@ -96,10 +121,10 @@ void Search::try_two_mistakes() {
     try_additions({one}, {});
     try_fits({one}, {}, one->part != Part::kExponent && one->part != Part::kLobe);
   }
-  for (const OutputStep& step : output_steps()) {
-    for (const Mistake* one : usable_) try_shape({one}, {&step});
-    try_additions({}, {&step});
-    try_fits({}, {&step}, false);
+  for (const OutputStep* step : values_.steps) {
+    for (const Mistake* one : usable_) try_shape({one}, {step});
+    try_additions({}, {step});
+    try_fits({}, {step}, false);
   }
   for (const Chain& chain : chains_of_two()) try_shape({}, chain);
 }
@@ -113,13 +138,9 @@ void Search::try_microfacet_forms() {
 }
 
 void Search::try_shape(const Shape& shape, const Chain& chain, Additions additions) {
-  // A clamp gives nothing beyond its end.
-  if (!chain.empty())
-    for (const Group& group : values_.all.samples.groups())
-      for (std::size_t i = 0; i < group.values.size(); ++i)
-        if (group.values[i] - group.errors[i] > chain.back()->most) return;
   const std::vector<Formula> formula = formulas(shape);
-  Searched::Values& some = values_.some;
+  Searched::Values &some = values_.some, &all = values_.all;
+  if (!std::ranges::all_of(some.of(chain), &Radiances::are_possible)) return;
   const Fit of_some = shader_check::fit(some.samples.groups(), some.of(chain), formula,
                                         some.samples.shapes(formula), additions);
   Candidate candidate{highlight_, shape, chain, of_some, {}, {}, 0};
@@ -131,7 +152,7 @@ void Search::try_shape(const Shape& shape, const Chain& chain, Additions additio
   if (off && best_ &&
       (best_->explains() || of_some.left.most_of_peak > 2 * best_->fit.left.most_of_peak))
     return;
-  Searched::Values& all = values_.all;
+  if (!std::ranges::all_of(all.of(chain), &Radiances::are_possible)) return;
   candidate.fit = shader_check::fit(all.samples.groups(), all.of(chain), formula,
                                     all.samples.shapes(formula), additions);
   // Light is added.
@@ -200,7 +221,7 @@ void Search::keep(Candidate candidate) {
   }
   const double ours = candidate.score(), theirs = best_->score();
   if (!std::isfinite(ours)) {
-    if (!std::isfinite(theirs) && candidate.fit.left.most_of_peak < best_->fit.left.most_of_peak)
+    if (!std::isfinite(theirs) && distance(candidate) < distance(*best_))
       best_ = std::move(candidate);
     return;
   }

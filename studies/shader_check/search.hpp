@@ -31,6 +31,7 @@ struct Candidate {
 class Searched {
  public:
   explicit Searched(const Observed& observed);
+  Searched(const Searched&) = delete;  // its clamp is pointed to
   struct Values {
     Samples samples;
     std::map<Chain, std::vector<Radiances>> radiances;
@@ -38,6 +39,12 @@ class Searched {
   };
   Values some, all;
   bool is_half = false;  ///< every value is a half float
+  /// What may be done to a result: output_steps(), and a clamp to the largest value if several calls give that.
+  std::vector<const OutputStep*> steps;
+
+ private:
+  std::string clamp_words_;
+  OutputStep clamp_{};
 };
 
 /// The search for one model. Rounds go from the simple to the involved; each keeps the best that was found.

@@ -22,13 +22,18 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"reference_scenes", {"base", "renderer"}},
     {"farm", {"base", "renderer", "profile", "compare", "reference_scenes"}},
     {"studies", {"base", "renderer", "profile", "compare", "reference_scenes"}},
+    {"shader_check", {"base", "renderer", "compare", "studies"}},
     {"gallery", {"base"}},
     {"program",
-     {"base", "renderer", "profile", "compare", "reference_scenes", "farm", "studies", "gallery"}},
+     {"base", "renderer", "profile", "compare", "reference_scenes", "farm", "studies",
+      "shader_check", "gallery"}},
 };
 
 /// The room of a file or a folder of sources.
-std::string room_of(const fs::path& path) { return path.begin()->string(); }
+std::string room_of(const fs::path& path) {
+  return path.generic_string().starts_with("studies/shader_check/") ? "shader_check"
+                                                                    : path.begin()->string();
+}
 
 /// The room of one of our CMake targets.
 std::string room_of_target(const std::string& target) {

@@ -215,6 +215,12 @@ inline const std::vector<PlantedMistake>& planted_mistakes() {
          "return min((n + 2.0) / (2.0 * PI) * pow(mirror_cosine(N, V, L), n) * nl, 1.0);",
          {"clamped"},
          "the result is clamped to 1"},
+        {"clamped to 10",
+         "modified_phong",
+         LOBELIA_LIT
+         "return min((n + 2.0) / (2.0 * PI) * pow(mirror_cosine(N, V, L), n) * nl, 10.0);",
+         {"clamped"},
+         "the result is clamped to 10"},
         {"sRGB",
          "modified_phong",
          LOBELIA_LIT "return srgb((n + 2.0) / (2.0 * PI) * pow(mirror_cosine(N, V, L), n) * nl);",

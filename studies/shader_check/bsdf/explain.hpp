@@ -10,7 +10,7 @@ namespace lobelia::shader_check::bsdf {
 struct BsdfMistake {
   std::string_view name, sentence;
 };
-/// All that can be named, for docs/check_shader.md.
+/// All that can be named.
 std::span<const BsdfMistake> bsdf_mistakes();
 
 /// The values with pdf called with another parameter.

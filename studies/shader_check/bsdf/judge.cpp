@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "profile/critical.hpp"
 #include "studies/shader_check/bsdf/chances.hpp"
 
 namespace lobelia::shader_check::bsdf {
@@ -218,8 +217,9 @@ bool are_known(std::size_t unknown, const BsdfValues& values) {
 std::size_t random_tests(const BsdfValues& values) {
   return values.settings.size() * kTestsOfSetting;
 }
+/// Bonferroni's, because the tests of a setting are not independent.
 double level_of_each(const BsdfValues& values) {
-  return sidak(kFalseAlarms, double(random_tests(values)));
+  return kFalseAlarms / double(random_tests(values));
 }
 
 PdfTests pdf_tests(const BsdfSettingValues& setting, bool has_cosine,
