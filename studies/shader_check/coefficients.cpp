@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kOfFitted = 1.25, kOfFittedLine = 1.5, kUnknown = 2;
 /// A fitted factor is a cause only so many times its tolerance away from 1, and if it does not print as 1.
-constexpr double kClear = 3, kLeastExposure = 5e-4;
+constexpr double kClear = 3, kLeastExposure = 5e-4, kLeastOfLine = 5e-4;
 
 struct Factor {
   std::string_view id, words;
@@ -160,7 +160,11 @@ NamedCoefficient CoefficientNames::name(std::span<const FittedCoefficient> fitte
   }
   if (fitted.size() > 2) {
     const auto [slope, offset] = line_through(fitted);
-    if (slope > 0 && is([slope = slope, offset = offset](double n) { return slope * n + offset; }))
+    const bool is_clear = std::ranges::any_of(fitted, [&](const FittedCoefficient& at) {
+      return std::abs(at.value / own(at.exponent) - 1) > kLeastOfLine;
+    });
+    if (is_clear && slope > 0 &&
+        is([slope = slope, offset = offset](double n) { return slope * n + offset; }))
       return fitted_number(
           "coefficient",
           fmt::format("the coefficient is {:.4g} n {} {:.4g}, where {} is expected", slope,

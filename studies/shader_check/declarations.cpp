@@ -96,6 +96,8 @@ class Parser {
     } else if (first == "precision" || first == "typedef") {
       const std::size_t begin = at_;
       skip();
+      if (first == "typedef" && at_ > begin + 3)
+        found_.aliases.emplace(word(at_ - 2), text_of(begin + 1, at_ - 2));
       if (is_texture_type(word(begin + 2), language_)) replace(begin, at_);
     } else if (is_hlsl_ && is_one_of(first, {"technique", "technique10", "technique11"})) {
       const std::size_t begin = at_;

@@ -1,6 +1,7 @@
 // The functions, structures and global variables that a shader's text declares, in GLSL, HLSL and WGSL.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,7 @@ struct Declarations {
   std::vector<FunctionDeclaration> functions;
   std::vector<StructDeclaration> structs;
   std::vector<GlobalVariable> globals;
+  std::map<std::string, std::string, std::less<>> aliases;  ///< types by their other names
   /// Make private variables of all globals that can be set, without bindings, locations and semantics.
   std::vector<TextEdit> edits;
 

@@ -121,7 +121,7 @@ records::ShaderExplanation explanation_of(const Search& search, const Observed& 
   } else {
     for (const std::string_view id : best.ids()) explanation.mistakes.emplace_back(id);
     explanation.sentence = sentence_of(best);
-    if (search.other())
+    if (search.other() && sentence_of(*search.other()) != sentence_of(best))
       explanation.sentence += "; or, which gives the same: " + sentence_of(*search.other());
   }
   if (is_half && best.explains()) {
@@ -157,12 +157,15 @@ std::optional<records::ShaderExplanation> empty_explanation(const Observed& obse
   return found;
 }
 
-/// Of two models that explain the same values, the one whose coefficient has a factor is told, not the one that has another
-/// coefficient.
+/// Of two models that explain the same values, the one is told whose coefficient has a factor, not the one with another
+/// coefficient, and the one that has a geometry term.
 double rank(const Candidate& candidate) {
-  constexpr double kOfOtherCoefficient = 0.1;
-  const bool is_other = std::ranges::count(candidate.coefficient.ids, "coefficient") > 0;
-  return candidate.score() + (is_other ? kOfOtherCoefficient : 0);
+  constexpr double kLess = 0.1;
+  const auto ids = candidate.ids();
+  const bool is_other = std::ranges::count(ids, "coefficient") > 0 ||
+                        (std::ranges::count(ids, "geometry-term") > 0 &&
+                         !info(candidate.highlight.model).has_shadowing);
+  return candidate.score() + (is_other ? kLess : 0);
 }
 
 /// `differs`: it is known not to be the model.

@@ -9,6 +9,9 @@
 namespace lobelia::shader_check {
 namespace {
 
+/// In place of what a float32 cannot hold, so that sums of squares stay finite.
+constexpr double kInfinite = 1e38;
+
 Point reversed(Point point, Reversed which) {
   if (which == Reversed::kLight) point.to_light = -point.to_light;
   if (which == Reversed::kNormal ||
@@ -54,7 +57,8 @@ double factor_of(const Formula& formula, const Geometry& g) {
   double factor = formula.cosine ? formula.cosine(light, g) : 1;
   const double l = std::abs(light), v = std::abs(g.n_dot_v);
   if (formula.geometry_term) factor *= formula.geometry_term(l, v, g, formula.exponent);
-  if (formula.guard) factor *= 4 * l * v / formula.guard(4 * l * v);
+  if (formula.least_product > 0 || formula.more_product > 0)
+    factor *= 4 * l * v / (std::max(4 * l * v, formula.least_product) + formula.more_product);
   if (formula.f0 >= 0) factor *= formula.f0 + (1 - formula.f0) * formula.fresnel(g);
   return std::isfinite(factor) ? factor : 0;
 }
@@ -92,7 +96,9 @@ std::vector<double> lobe_values(const Formula& formula, std::span<const Seen> po
   for (const Seen& seen : points) {
     const double s = s_of(formula, seen.as(formula.reversed));
     // A vector that is not normalised may have a cosine over 1.
-    const double value = s < 0 ? std::pow(1 - s, formula.exponent) : s < 1 ? lobe.value(s) : 0;
+    const double value = s < 0   ? std::min(std::pow(1 - s, formula.exponent), kInfinite)
+                         : s < 1 ? lobe.value(s)
+                                 : 0;
     values.push_back(std::isfinite(value) ? value : 0);
   }
   return values;

@@ -20,7 +20,7 @@ struct Seen {
 /// Schlick's (1 - V.H)^5.
 double fresnel_power(const Geometry& geometry);
 
-/// A formula before its coefficient: lobe * cosine * geometry term * guard * Fresnel.
+/// A formula before its coefficient: lobe * cosine * geometry term * floor of the denominator * Fresnel.
 struct Formula {
   // The lobe.
   LobeAngle angle;
@@ -34,8 +34,8 @@ struct Formula {
   double (*cosine)(double light, const Geometry&) = nullptr;
   double (*geometry_term)(double n_dot_l, double n_dot_v, const Geometry&,
                           double exponent) = nullptr;  ///< G / ((N.L) (N.V)); null: 1
-  double (*guard)(double product) = nullptr;  ///< of 4 (N.L) (N.V): in place of that product
-  double f0 = -1;                             ///< of Schlick's Fresnel factor; below 0: none
+  double least_product = 0, more_product = 0;  ///< max(4 (N.L) (N.V), least) + more, in its place
+  double f0 = -1;                              ///< of Schlick's Fresnel factor; below 0: none
   double (*fresnel)(const Geometry&) = fresnel_power;
   enum class Behind : std::uint8_t {
     kBlack,

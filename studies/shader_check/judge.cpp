@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::size_t kDomainPoints = 600, kPointsBelow = 100;
 constexpr double kIncidences[] = {0, 45, 75};
-/// Where L + V is shorter, a rounding of the vectors turns H (docs/export.md).
-constexpr double kNearlyOpposite = 0.2, kMoreWhereOpposite = 10;
 
 }  // namespace
 
@@ -98,7 +96,7 @@ void Judge::add_errors(const Plan::Part& part, std::map<double, records::ShaderE
     if (is_at_an_edge(highlight_, geometry)) continue;
     const double expected = model(i);
     // In units of what is allowed there, so that the allowance is one number for an exponent.
-    const double scale = geometry.half_length < kNearlyOpposite ? kMoreWhereOpposite : 1;
+    const double scale = more_where_opposite(geometry);
     // With shadowing the model's highlight is higher than its coefficient towards grazing.
     const double of_peak = std::abs(value - expected) / std::max(peak, expected) / scale;
     // A discarded pixel is as dark as 0.

@@ -69,23 +69,25 @@ Meaning vector_meaning(const Name& name) {
       name.has({"col", "uv", "map", "tex", "count", "num"}))
     return {};
   if (name.is({"f0"})) return told("1");
-  if (name.is({"h", "wh", "hv", "hvec", "hdir", "hn"}) || name.contains({"half"})) return told("H");
+  if (name.is({"h", "hw", "wh", "hv", "hvec", "hdir", "hn"}) || name.contains({"half"}))
+    return told("H");
   if (name.is({"r", "rv", "rdir", "rvec"}) || name.contains({"mirrordir", "reflectdir"}) ||
       name.is({"reflect", "reflected", "reflection", "refl", "mirror", "reflectionvector",
                "reflectiondir", "reflectiondirection", "reflectdirection", "reflectvec",
                "reflectedlight"}))
     return told("R");
-  if (name.is({"n", "nn", "nor", "nrm", "ng", "ns", "nvec", "ndir"}) || name.contains({"normal"}) ||
-      name.has({"norm", "nrm"}))
+  if (name.is({"n", "nn", "nor", "nrm", "ng", "ns", "nw", "nvec", "ndir"}) ||
+      name.contains({"normal"}) || name.has({"norm", "nrm"}))
     return told("N");
-  if (name.is({"l", "ldir", "lvec", "lv", "lightv", "wi", "incoming", "omegai", "lpos"}) ||
+  if (name.is({"l", "ldir", "lvec", "lv", "lw", "lightv", "wi", "incoming", "omegai", "lpos"}) ||
       name.has({"light", "sun", "lamp", "lights"}) || name.contains({"light"}))
     return told("L");
-  if (name.is({"v", "e", "vdir", "vvec", "wo", "outgoing", "omegao", "toeye", "eyev"}) ||
+  if (name.is({"v", "e", "vw", "vdir", "vvec", "wo", "outgoing", "omegao", "toeye", "eyev"}) ||
       name.contains({"view", "camera", "eye", "viewer", "observer"}) || name.has({"cam"}))
     return told("V");
   if (name.has({"pos", "position", "point", "wpos", "worldpos"}) ||
-      name.is({"p", "fragpos", "hit"}) || name.contains({"position", "fragpos", "worldpos"}))
+      name.is({"p", "fragpos", "hit", "world", "ws"}) ||
+      name.contains({"position", "fragpos", "worldpos"}))
     return told("position");
   return {};
 }
@@ -218,8 +220,9 @@ Meaning meaning_of(std::string_view path, const TypeShape& shape) {
   };
   const Meaning whole = of(Name(path));
   const std::size_t dot = path.rfind('.');
-  if (!whole.values.empty() || dot == path.npos) return whole;
-  return of(Name(path.substr(dot + 1)));
+  if (whole.is_told || dot == path.npos) return whole;
+  const Meaning last = of(Name(path.substr(dot + 1)));
+  return last.is_told || whole.values.empty() ? last : whole;
 }
 
 std::string suggested_value(std::string_view path, const TypeShape& shape) {

@@ -194,29 +194,6 @@ void add_geometry_terms(Mistakes& all) {
       });
 }
 
-/// Floors of the denominator 4 (N.L)(N.V), of a model with shadowing, and of one that has the denominator by mistake.
-void add_guards(Mistakes& all) {
-  const auto add = [&](const std::string& what, double (*guard)(double)) {
-    all.push_back({"denominator-floor", Part::kGuard, fmt::format("the denominator is {}", what),
-                   has_shadowing, [guard](Formula& f, double) { f.guard = guard; }});
-    all.push_back({"denominator-floor", Part::kGeometryTerm,
-                   fmt::format("it is divided by {}, without a geometry term", what),
-                   is_unshadowed_distribution, [guard](Formula& f, double) {
-                     f.geometry_term = [](double l, double v, const Geometry&, double) {
-                       return 1 / (l * v);
-                     };
-                     f.guard = guard;
-                   }});
-  };
-  add("max(4 (N.L)(N.V), 0.001)", [](double p) { return std::max(p, 1e-3); });
-  add("max(4 (N.L)(N.V), 0.0001)", [](double p) { return std::max(p, 1e-4); });
-  add("max(4 (N.L)(N.V), 0.01)", [](double p) { return std::max(p, 1e-2); });
-  add("max(4 (N.L)(N.V), 0.75)", [](double p) { return std::max(p, 0.75); });
-  add("4 (N.L)(N.V) + 0.0001", [](double p) { return p + 1e-4; });
-  add("4 (N.L)(N.V) + 0.001", [](double p) { return p + 1e-3; });
-  add("4 (N.L)(N.V) + 0.05", [](double p) { return p + 0.05; });
-}
-
 void add_exponents(Mistakes& all) {
   const auto add = [&](const std::string& used, double (*rule)(double n)) {
     all.push_back({"exponent", Part::kExponent, used + " is used where n is expected", nullptr,
@@ -261,7 +238,6 @@ Mistakes make_mistakes() {
   add_angles(all);
   add_directions(all);
   add_geometry_terms(all);
-  add_guards(all);
   all.push_back({"half-float-s", Part::kRounding, "s is a half float", nullptr,
                  [](Formula& f, double) { f.half = Formula::Half::kS; }});
   all.push_back({"half-float-cosine", Part::kRounding, "the cosine of the lobe is a half float",

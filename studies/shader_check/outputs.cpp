@@ -40,6 +40,21 @@ double inverse_hejl(double y) {
   return kHejlBlack + (-b + std::sqrt(std::max(b * b - 4 * a * c, 0.0))) / (2 * a);
 }
 
+/// Hable's curve of Uncharted 2, with white at 11.2: (x (A x + C B) + D E) / (x (A x + B) + D F) - E / F.
+constexpr double kHableA = 0.15, kHableB = 0.5, kHableCB = 0.05, kHableDE = 0.004, kHableDF = 0.06,
+                 kHableEF = 0.02 / 0.3;
+constexpr double hable_curve(double x) {
+  return (x * (kHableA * x + kHableCB) + kHableDE) / (x * (kHableA * x + kHableB) + kHableDF) -
+         kHableEF;
+}
+constexpr double kHableWhite = hable_curve(11.2);
+double hable(double v) { return hable_curve(v) / kHableWhite; }
+double inverse_hable(double y) {
+  const double z = y * kHableWhite + kHableEF, a = kHableA * (1 - z), b = kHableCB - z * kHableB,
+               c = kHableDE - z * kHableDF;
+  return (-b + std::sqrt(std::max(b * b - 4 * a * c, 0.0))) / (2 * a);
+}
+
 constexpr std::string_view kSrgb = "the result is encoded as sRGB, where light is expected",
                            kTwice = "the result is encoded as sRGB twice";
 constexpr OutputStep kSteps[] = {
@@ -69,6 +84,10 @@ constexpr OutputStep kSteps[] = {
      true},
     {"tone-mapped", "the result is tone-mapped by Hejl's filmic curve, with its gamma", hejl,
      inverse_hejl, 0, 1, true, 1e-7},
+    {"tone-mapped", "the result is tone-mapped by Hable's curve of Uncharted 2", hable,
+     inverse_hable, 0, (1 - kHableEF) / kHableWhite, true, 2e-7},
+    {"gamma", "the result has a gamma of 0.4545", [](double v) { return power(v, 0.4545); },
+     [](double y) { return power(y, 1 / 0.4545); }, 0, kInfinity},
 };
 
 constexpr std::string_view kExposure[] = {
@@ -85,6 +104,10 @@ constexpr OutputStep multiplied(std::string_view words) {
 }
 constexpr OutputStep kExposures[] = {multiplied<8>(kExposure[0]), multiplied<16>(kExposure[1]),
                                      multiplied<2>(kExposure[2]), multiplied<1>(kExposure[3])};
+
+double inverse(const OutputStep& step, double value) {
+  return step.exponent != 0 ? power(value, 1 / step.exponent) : step.inverse(value);
+}
 
 }  // namespace
 
@@ -105,6 +128,11 @@ std::vector<Chain> chains_of_two() {
   return all;
 }
 
+OutputStep power_step(double exponent, std::string_view words) {
+  const std::string_view id = exponent < 1 ? "gamma" : "gamma-decoded";
+  return {id, words, nullptr, nullptr, 0, kInfinity, false, 0, {}, exponent};
+}
+
 Origin origin_of(const Chain& chain, double value, double error) {
   double low = value - error, high = value + error;
   bool is_possible = true;
@@ -112,13 +140,13 @@ Origin origin_of(const Chain& chain, double value, double error) {
     const OutputStep& s = **step;
     is_possible = is_possible && low <= s.most && high >= s.least;
     const auto back = [&](double y) {
-      return y >= s.most ? kInfinity : y <= s.least ? -kInfinity : s.inverse(y);
+      return y >= s.most ? kInfinity : y <= s.least ? -kInfinity : inverse(s, y);
     };
     low = low == -kInfinity ? low : back(low - s.rounding);
     high = high == kInfinity ? high : back(high + s.rounding);
     // At the end itself the step is still invertible, but for a tone mapping, which does not reach it.
     value = std::clamp(value, s.least, s.most);
-    value = s.inverse(value);
+    value = inverse(s, value);
     if (!std::isfinite(value)) value = std::isfinite(low) ? low : std::isfinite(high) ? high : 0;
   }
   if (low == kInfinity) low = value;

@@ -12,16 +12,18 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct OutputStep {
   std::string_view id, words;
-  double (*value)(double radiance);  ///< null of a clamp that was found
+  double (*value)(double radiance);  ///< null of a step that was fitted
   double (*inverse)(double value);
   /// The values that it may give. At an end of the range, any radiance beyond is possible.
   double least, most;
   bool is_tone_mapping = false;
   double rounding = 0;         ///< by which float32 is off near 0, as where 1 is taken away
   std::string_view also = {};  ///< another mistake that is in it
+  double exponent = 0;         ///< if not 0, it is value^exponent in place of the functions
 };
 std::span<const OutputStep> output_steps();
 OutputStep clamp_to(double most, std::string_view words);
+OutputStep power_step(double exponent, std::string_view words);
 
 /// One after the other. Of a tone mapping, a second step may be a multiplication.
 using Chain = std::vector<const OutputStep*>;

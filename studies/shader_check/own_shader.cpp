@@ -51,9 +51,9 @@ void require_right_driver(const Request& request, const std::string& device,
     here.exponent = points[i].exponent;
     const double peak = coefficients.at(here.exponent), value = double(values[i].r),
                  error = std::abs(value - model_radiance(here, peak, geometry)) / peak;
-    // Where L + V is short, a rounding of the vectors turns H. Without a peak a lobe takes more roundings (measured 9.2e-5).
-    const double allowed = allowed_error(here.exponent) * (geometry.half_length < 0.2 ? 10 : 1) *
-                           (here.exponent < 1 ? 10 : 2);
+    // Without a peak a lobe takes more roundings (measured 9.2e-5).
+    const double allowed =
+        allowed_error(here.exponent) * more_where_opposite(geometry) * (here.exponent < 1 ? 10 : 2);
     if (values[i].written &&
         (error <= allowed || (std::isfinite(value) && is_at_an_edge(here, geometry))))
       continue;

@@ -144,6 +144,11 @@ std::vector<Point> points_below(const Highlight& highlight, double exponent, std
   return points;
 }
 
+double more_where_opposite(const Geometry& geometry) {
+  constexpr double kShort = 0.4, kShortest = 0.01;
+  return std::max(1.0, kShort / std::pow(std::max(geometry.half_length, kShortest), 2));
+}
+
 bool is_defined(const Geometry& geometry) { return geometry.n_dot_v > kLeastEyeCosine; }
 
 Hemisphere hemisphere_points(LobeAngle angle, double degrees, double exponent) {

@@ -24,6 +24,9 @@ struct Geometry {
   double n_dot_difference;  ///< N.(L - V), normalised; 0 where L = V
 };
 
+/// How many times as much float32 may leave where L and V are nearly opposite: |L + V|^2 as 2 + 2 L.V is off by 4e-7.
+double more_where_opposite(const Geometry& geometry);
+
 /// Random directions for one exponent: eye above the horizon; half of them within the highlight, some grazing, and a sixth
 /// with the light behind the surface.
 std::vector<Point> domain_points(const Highlight& highlight, double exponent, std::size_t count);

@@ -70,14 +70,41 @@ void raise_precision(ReadShader& shader, std::vector<TextEdit>& edits) {
   for (const auto& [name, tokens] : shader.tokens.macros) read(tokens);
 }
 
-/// A type that is a macro becomes what it stands for.
-void resolve(std::string& type, const TokenList& tokens) {
+/// A type that is a macro or an alias becomes what it stands for.
+void resolve(std::string& type, const ReadShader& shader) {
   constexpr int kMostSteps = 4;
+  const auto& macros = shader.tokens.macros;
+  const auto& aliases = shader.declared.aliases;
   for (int step = 0; step < kMostSteps; ++step) {
-    const auto found = tokens.macros.find(type);
-    if (found == tokens.macros.end() || found->second.size() != 1) return;
-    type = found->second.front().text;
+    if (const auto alias = aliases.find(type); alias != aliases.end()) {
+      type = alias->second;
+    } else if (const auto macro = macros.find(type);
+               macro != macros.end() && macro->second.size() == 1) {
+      type = macro->second.front().text;
+    } else {
+      return;
+    }
   }
+}
+
+/// glslang computes h m for the h^m of HLSL's lit(l, h, m).
+void mend_lit(ReadShader& shader, std::vector<TextEdit>& edits) {
+  constexpr std::string_view kLit = "lit";
+  if (std::ranges::count(shader.declared.functions, kLit, &FunctionDeclaration::name) > 0) return;
+  bool is_called = false;
+  const auto read = [&](const std::vector<Token>& tokens) {
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+      if (tokens[i] == kLit && tokens[i + 1] == "(") {
+        edits.push_back({tokens[i].at, tokens[i].at, "lobelia_"});
+        is_called = true;
+      }
+  };
+  read(shader.tokens.tokens);
+  for (const auto& [name, tokens] : shader.tokens.macros) read(tokens);
+  if (is_called)
+    shader.prelude +=
+        "float4 lobelia_lit(float l, float h, float m) { return float4(1.0, max(l, 0.0), "
+        "l < 0.0 || h < 0.0 ? 0.0 : pow(h, m), 1.0); }\n";
 }
 
 bool is_own_name(std::string_view word) {
@@ -88,8 +115,9 @@ bool is_own_name(std::string_view word) {
   if (word.size() > 1 && (word[0] == 'p' || word[0] == 'a') &&
       word.find_first_not_of("0123456789", 1) == word.npos)
     return true;
-  constexpr std::string_view kOwn[] = {"as_four", "points", "result", "results",      "main", "i",
-                                       "k",       "t",      "value",  "main_of_file", "id",   "v"};
+  constexpr std::string_view kOwn[] = {"as_four", "points", "result", "results", "main",
+                                       "i",       "k",      "t",      "value",   "main_of_file",
+                                       "id",      "v",      "lit"};
   return std::ranges::find(kOwn, word) != std::end(kOwn) || word.starts_with("gl_");
 }
 
@@ -194,15 +222,17 @@ std::unique_ptr<ReadShader> read_shader(const ShaderSource& source) {
   if (source.language == ShaderText::kGlsl) {
     add_built_ins(*shader, edits);
     raise_precision(*shader, edits);
+  } else if (source.language == ShaderText::kHlsl) {
+    mend_lit(*shader, edits);
   }
   shader->text = edited(shader->plain, std::move(edits));
   for (FunctionDeclaration& function : shader->declared.functions) {
-    resolve(function.result, shader->tokens);
-    for (Declared& one : function.parameters) resolve(one.type, shader->tokens);
+    resolve(function.result, *shader);
+    for (Declared& one : function.parameters) resolve(one.type, *shader);
   }
   for (StructDeclaration& one : shader->declared.structs)
-    for (Declared& member : one.members) resolve(member.type, shader->tokens);
-  for (GlobalVariable& one : shader->declared.globals) resolve(one.type, shader->tokens);
+    for (Declared& member : one.members) resolve(member.type, *shader);
+  for (GlobalVariable& one : shader->declared.globals) resolve(one.type, *shader);
   find_entries(shader->declared);
   return shader;
 }

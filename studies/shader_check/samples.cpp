@@ -40,7 +40,8 @@ void set_errors(Group& group) {
   for (std::size_t i = 0; i < group.values.size(); ++i) {
     const Geometry& g = group.seen[i].as(Reversed::kNone);
     const double grazing = kGrazing / std::max(std::min(std::abs(g.n_dot_l), g.n_dot_v), 1e-6);
-    group.errors.push_back((rounding + 2e-5 * grazing) * std::max(std::abs(group.values[i]), peak));
+    group.errors.push_back((rounding * more_where_opposite(g) + 2e-5 * grazing) *
+                           std::max(std::abs(group.values[i]), peak));
   }
 }
 
@@ -170,7 +171,8 @@ const std::vector<double>& Samples::factor(std::size_t group, const Formula& f) 
                 f.geometry_term ? std::bit_cast<std::uint64_t>(f.exponent) : 0,
                 bits(f.cosine),
                 bits(f.geometry_term),
-                bits(f.guard),
+                std::bit_cast<std::uint64_t>(f.least_product),
+                std::bit_cast<std::uint64_t>(f.more_product),
                 std::bit_cast<std::uint64_t>(f.f0),
                 bits(f.fresnel),
                 std::bit_cast<std::uint64_t>(f.least_light),

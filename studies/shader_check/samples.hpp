@@ -69,7 +69,7 @@ class Samples {
   const std::vector<double>& factor(std::size_t group, const Formula& formula);
   std::vector<Group> groups_;
   bool keeps_;
-  using Key = std::array<std::uint64_t, 9>;
+  using Key = std::array<std::uint64_t, 10>;
   std::map<Key, std::vector<double>> lobes_, factors_;
 };
 

@@ -16,7 +16,8 @@ constexpr double kMostExponent = 2e4;
 constexpr double kUnclear = 1e-2;  // the relative error of a coefficient that tells nothing
 /// Another candidate of the same cost is better if it leaves this share, and as good if it does not leave its inverse.
 constexpr double kFarLess = 0.3;
-constexpr std::ptrdiff_t kSharers = 4;  // calls that give the largest value
+constexpr double kLeastAddition = 1e-4;  // of the lowest peak
+constexpr std::ptrdiff_t kSharers = 4;   // calls that give the largest value
 
 bool is_far_off(const Left& left) { return left.most > kMoreOfASample; }
 
@@ -73,6 +74,15 @@ const std::vector<Radiances>& Searched::Values::of(const Chain& chain) {
   return at->second;
 }
 
+const OutputStep* Searched::power(double exponent, const std::string& text) {
+  const auto [at, is_new] = powers_.try_emplace(exponent);
+  if (is_new) {
+    at->second.words = fmt::format("the result has a gamma of {}", text);
+    at->second.step = power_step(exponent, at->second.words);
+  }
+  return &at->second.step;
+}
+
 Search::Search(const Highlight& highlight, Searched& values, bool of_roughness, bool other_models)
     : highlight_(highlight), values_(values), names_(highlight) {
   for (const Mistake& mistake : mistakes()) {
@@ -111,6 +121,7 @@ void Search::try_one_mistake() {
   try_additions({}, {});
   try_fits({}, {}, true);
   for (const OutputStep* step : values_.steps) try_shape({}, {step});
+  try_powers({});
 }
 
 void Search::try_two_mistakes() {
@@ -119,7 +130,12 @@ void Search::try_two_mistakes() {
       if (usable_[i]->part != usable_[j]->part) try_shape({usable_[i], usable_[j]});
   for (const Mistake* one : usable_) {
     try_additions({one}, {});
+    try_powers({one});
     try_fits({one}, {}, one->part != Part::kExponent && one->part != Part::kLobe);
+  }
+  for (const Mistake* guard : guards_beside_fresnel()) {
+    try_fits({guard}, {}, true);
+    try_additions({guard}, {});
   }
   for (const OutputStep* step : values_.steps) {
     for (const Mistake* one : usable_) try_shape({one}, {step});
@@ -129,11 +145,17 @@ void Search::try_two_mistakes() {
   for (const Chain& chain : chains_of_two()) try_shape({}, chain);
 }
 
+std::vector<const Mistake*> Search::guards_beside_fresnel() {
+  std::vector<const Mistake*> all = fitted_guards({}, {});
+  for (const Mistake* fresnel : fitted_fresnel({}, {}))
+    for (const Mistake* guard : fitted_guards({fresnel}, {})) all.push_back(guard);
+  return all;
+}
+
 void Search::try_microfacet_forms() {
   for (const Mistake* term : usable_) {
     if (term->part != Part::kGeometryTerm) continue;
-    for (const Mistake* guard : usable_)
-      if (guard->part == Part::kGuard) try_fits({term, guard}, {}, false);
+    for (const Mistake* guard : fitted_guards({term}, {})) try_fits({term, guard}, {}, false);
   }
 }
 
@@ -155,9 +177,12 @@ void Search::try_shape(const Shape& shape, const Chain& chain, Additions additio
   if (!std::ranges::all_of(all.of(chain), &Radiances::are_possible)) return;
   candidate.fit = shader_check::fit(all.samples.groups(), all.of(chain), formula,
                                     all.samples.shapes(formula), additions);
-  // Light is added.
+  // Light is added, and so much that it is no rounding.
   const Additions& found = candidate.fit.additions;
-  if ((additions.ambient && found.of_ambient <= 0) || (additions.diffuse && found.of_diffuse <= 0))
+  const double least =
+      kLeastAddition * std::ranges::min(all.of(chain), {}, &Radiances::largest).largest;
+  if ((additions.ambient && found.of_ambient <= least) ||
+      (additions.diffuse && found.of_diffuse <= least))
     return;
   name(candidate);
   if (is_simple || candidate.explains()) keep(std::move(candidate));
@@ -182,7 +207,16 @@ void Search::try_fits(const Shape& shape, const Chain& chain, bool with_exponent
     for (const Mistake* fresnel : fitted_fresnel(shape, chain)) with(fresnel);
   if (!has(shape, Part::kBehind))
     for (const Mistake* floor : fitted_floors(shape, chain)) with(floor);
+  if (!has(shape, Part::kGuard))
+    for (const Mistake* guard : fitted_guards(shape, chain)) with(guard);
   if (with_exponent) with(fitted_exponent(shape));
+}
+
+void Search::try_powers(const Shape& shape) {
+  for (const OutputStep* power : fitted_powers(shape)) {
+    try_shape(shape, {power});
+    if (shape.empty()) try_shape(shape, {values_.steps.front(), power});
+  }
 }
 
 void Search::name(Candidate& candidate) {

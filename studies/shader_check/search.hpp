@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,10 +42,17 @@ class Searched {
   bool is_half = false;  ///< every value is a half float
   /// What may be done to a result: output_steps(), and a clamp to the largest value if several calls give that.
   std::vector<const OutputStep*> steps;
+  /// The step value^exponent, each made once.
+  const OutputStep* power(double exponent, const std::string& text);
 
  private:
   std::string clamp_words_;
   OutputStep clamp_{};
+  struct Power {
+    std::string words;
+    OutputStep step;
+  };
+  std::map<double, Power> powers_;
 };
 
 /// The search for one model. Rounds go from the simple to the involved; each keeps the best that was found.
@@ -66,12 +74,16 @@ class Search {
   void try_shape(const Shape& shape, const Chain& chain = {}, Additions additions = {});
   void try_additions(const Shape& shape, const Chain& chain);
   void try_fits(const Shape& shape, const Chain& chain, bool with_exponent);
+  void try_powers(const Shape& shape);
   void name(Candidate& candidate);
   void keep(Candidate candidate);
   const Mistake* keep(Mistake mistake);
   // What a number may be that the shader has in place of the model's (search_fits.cpp).
   std::vector<const Mistake*> fitted_fresnel(const Shape& shape, const Chain& chain);
   std::vector<const Mistake*> fitted_floors(const Shape& shape, const Chain& chain);
+  std::vector<const Mistake*> fitted_guards(const Shape& shape, const Chain& chain);
+  std::vector<const Mistake*> guards_beside_fresnel();
+  std::vector<const OutputStep*> fitted_powers(const Shape& shape);
   const Mistake* fitted_exponent(const Shape& shape);
   bool has(const Shape& shape, Part part) const;
 

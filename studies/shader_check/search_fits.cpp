@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -19,6 +20,47 @@ std::string number(double value) {
 }
 /// The number that is printed, because people write round ones.
 double rounded(double value) { return std::strtod(number(value).c_str(), nullptr); }
+
+/// A value with a larger relative error tells nothing of a number.
+constexpr double kUnclearValue = 0.02;
+/// No floor of 4 (N.L) (N.V) is higher.
+constexpr double kFarFromFloors = 0.8;
+
+/// A mean weighted by errors.
+class Mean {
+ public:
+  void add(double value, double error) {
+    const double weight = 1 / (error * error);
+    if (!std::isfinite(weight) || !std::isfinite(value)) return;
+    sum_ += weight * value, weights_ += weight;
+  }
+  double value() const { return weights_ > 0 ? sum_ / weights_ : 0; }
+
+ private:
+  double sum_ = 0, weights_ = 0;
+};
+
+/// y = slope x + offset by least squares.
+class Line {
+ public:
+  void add(double x, double y, double error) {
+    const double w = 1 / (error * error);
+    w_ += w, x_ += w * x, xx_ += w * x * x, y_ += w * y, xy_ += w * x * y;
+  }
+  std::pair<double, double> fit() const {
+    const double d = determinant();
+    return d > 0 ? std::pair{(w_ * xy_ - x_ * y_) / d, (xx_ * y_ - x_ * xy_) / d}
+                 : std::pair{0.0, 0.0};
+  }
+  double error_of_slope() const { return std::sqrt(w_ / determinant()); }
+  double error_of_offset() const { return std::sqrt(xx_ / determinant()); }
+
+ private:
+  double determinant() const { return w_ * xx_ - x_ * x_; }
+  double w_ = 0, x_ = 0, xx_ = 0, y_ = 0, xy_ = 0;
+};
+
+double over_both_cosines(double l, double v, const Geometry&, double) { return 1 / (l * v); }
 
 double fifth_power(double cosine) {
   const double one_minus = 1 - std::clamp(cosine, 0.0, 1.0);
@@ -168,6 +210,86 @@ std::vector<const Mistake*> Search::fitted_floors(const Shape& shape, const Chai
   if (of_light > 0 && of_lobe > 0) add(of_light, of_lobe);
   // The same floor in both: it is hard to see in a power.
   if (of_light > 0 && of_lobe != of_light) add(of_light, of_light);
+  return all;
+}
+
+std::vector<const Mistake*> Search::fitted_guards(const Shape& shape, const Chain& chain) {
+  std::vector<Formula> formula = formulas(shape);
+  const bool has_term = formula.front().geometry_term != nullptr;
+  if (!has_term && info(highlight_.model).normalised == NormalisedQuantity::kRadiance) return {};
+  if (!has_term)
+    for (Formula& one : formula) one.geometry_term = over_both_cosines;
+  const std::vector<Group>& groups = values_.all.samples.groups();
+  const std::vector<Radiances>& radiances = values_.all.of(chain);
+  const std::vector<std::vector<double>> shapes = values_.all.samples.shapes(formula);
+  // shape P / value is (P + more) / c for P = 4 (N.L) (N.V), and max(P, least) / c.
+  Mean more, least;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    Line line;
+    Mean coefficient;
+    std::vector<std::array<double, 3>> points;  // P, shape P / value, its error
+    for (std::size_t i = 0; i < shapes[g].size(); ++i) {
+      const Geometry& seen = groups[g].seen[i].as(formula[g].reversed);
+      const double product = 4 * std::abs(seen.n_dot_l * seen.n_dot_v),
+                   value = radiances[g].value[i], weight = radiances[g].weight[i];
+      const double relative = weight > 0 ? 1 / (std::abs(value) * std::sqrt(weight)) : 1;
+      if (!(shapes[g][i] * value > 0) || relative > kUnclearValue) continue;
+      const double quotient = shapes[g][i] * product / value;
+      points.push_back({product, quotient, quotient * relative});
+      line.add(product, quotient, quotient * relative);
+      if (product > kFarFromFloors)
+        coefficient.add(product / quotient, relative * product / quotient);
+    }
+    const auto [slope, offset] = line.fit();
+    if (slope > 0) more.add(offset / slope, line.error_of_offset() / slope);
+    for (const auto& [product, quotient, error] : points)
+      if (const double floor = coefficient.value() * quotient; floor > 1.05 * product)
+        least.add(floor, coefficient.value() * error);
+  }
+  std::vector<const Mistake*> all;
+  const auto add = [&](double of_least, double of_more, const std::string& denominator) {
+    all.push_back(
+        keep({"denominator-floor", Part::kGuard,
+              has_term ? fmt::format("the denominator is {}", denominator)
+                       : fmt::format("it is divided by {}, without a geometry term", denominator),
+              nullptr, [of_least, of_more, has_term](Formula& f, double) {
+                if (!has_term) f.geometry_term = over_both_cosines;
+                f.least_product = of_least;
+                f.more_product = of_more;
+              }}));
+  };
+  const auto is_floor = [](double value) { return value > 1e-6 && value < kFarFromFloors; };
+  if (const double value = rounded(least.value()); is_floor(value))
+    add(value, 0, fmt::format("max(4 (N.L)(N.V), {})", number(value)));
+  if (const double value = rounded(more.value()); is_floor(value))
+    add(0, value, fmt::format("4 (N.L)(N.V) + {}", number(value)));
+  return all;
+}
+
+std::vector<const OutputStep*> Search::fitted_powers(const Shape& shape) {
+  const std::vector<Formula> formula = formulas(shape);
+  const std::vector<Group>& groups = values_.all.samples.groups();
+  const std::vector<std::vector<double>> shapes = values_.all.samples.shapes(formula);
+  Mean mean;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    Line line;
+    for (std::size_t i = 0; i < shapes[g].size(); ++i) {
+      const double value = groups[g].values[i];
+      // A value of 1 may be that of a clamp.
+      if (!(value > 0) || std::abs(value - 1) < 1e-6 || !(shapes[g][i] > 0)) continue;
+      const double relative = groups[g].errors[i] / value;
+      if (relative < kUnclearValue) line.add(std::log(shapes[g][i]), std::log(value), relative);
+    }
+    const auto [slope, offset] = line.fit();
+    if (slope > 0) mean.add(slope, line.error_of_slope());
+  }
+  const double power = mean.value();
+  if (!(power > 0.2) || !(power < 5) || std::abs(power - 1) < 2e-3) return {};
+  std::vector<const OutputStep*> all;
+  const double root = std::round(10 / power) / 10;
+  if (std::abs(root * power - 1) < 2e-3)
+    all.push_back(values_.power(1 / root, fmt::format("1 / {:g}", root)));
+  all.push_back(values_.power(rounded(power), number(power)));
   return all;
 }
 

@@ -145,6 +145,11 @@ class WgslParser {
       at_ += 2;
       if (is(at_, "{")) found_.structs.push_back({name, list_of(at_, true)});
       skip();
+    } else if (first == "alias") {
+      const std::size_t begin = at_;
+      skip();
+      if (is(begin + 2, "=") && at_ > begin + 4)
+        found_.aliases.emplace(word(begin + 1), text_of(begin + 3, at_ - 1));
     } else if (first == "var" || first == "override" || first == "const") {
       variable(first);
     } else if (list_.is_name_at(at_)) {
