@@ -133,7 +133,7 @@ void Search::try_two_mistakes() {
     try_powers({one});
     try_fits({one}, {}, one->part != Part::kExponent && one->part != Part::kLobe);
   }
-  for (const Mistake* guard : guards_beside_fresnel()) {
+  for (const Mistake* guard : guards_beside_fresnel({})) {
     try_fits({guard}, {}, true);
     try_additions({guard}, {});
   }
@@ -145,17 +145,20 @@ void Search::try_two_mistakes() {
   for (const Chain& chain : chains_of_two()) try_shape({}, chain);
 }
 
-std::vector<const Mistake*> Search::guards_beside_fresnel() {
-  std::vector<const Mistake*> all = fitted_guards({}, {});
-  for (const Mistake* fresnel : fitted_fresnel({}, {}))
-    for (const Mistake* guard : fitted_guards({fresnel}, {})) all.push_back(guard);
+std::vector<const Mistake*> Search::guards_beside_fresnel(const Shape& shape) {
+  std::vector<const Mistake*> all = fitted_guards(shape, {});
+  for (const Mistake* fresnel : fitted_fresnel(shape, {})) {
+    Shape with_fresnel = shape;
+    with_fresnel.push_back(fresnel);
+    for (const Mistake* guard : fitted_guards(with_fresnel, {})) all.push_back(guard);
+  }
   return all;
 }
 
 void Search::try_microfacet_forms() {
   for (const Mistake* term : usable_) {
     if (term->part != Part::kGeometryTerm) continue;
-    for (const Mistake* guard : fitted_guards({term}, {})) try_fits({term, guard}, {}, false);
+    for (const Mistake* guard : guards_beside_fresnel({term})) try_fits({term, guard}, {}, false);
   }
 }
 
@@ -259,7 +262,9 @@ void Search::keep(Candidate candidate) {
       best_ = std::move(candidate);
     return;
   }
-  const double left = candidate.fit.left.most, best_left = best_->fit.left.most;
+  // Less than a thousandth of what rounding may leave is as good as nothing.
+  const double left = std::max(candidate.fit.left.most, 1e-3),
+               best_left = std::max(best_->fit.left.most, 1e-3);
   if (ours < theirs || (ours == theirs && left < kFarLess * best_left)) {
     best_ = std::move(candidate);
     other_.reset();

@@ -82,7 +82,7 @@ class Search {
   std::vector<const Mistake*> fitted_fresnel(const Shape& shape, const Chain& chain);
   std::vector<const Mistake*> fitted_floors(const Shape& shape, const Chain& chain);
   std::vector<const Mistake*> fitted_guards(const Shape& shape, const Chain& chain);
-  std::vector<const Mistake*> guards_beside_fresnel();
+  std::vector<const Mistake*> guards_beside_fresnel(const Shape& shape);
   std::vector<const OutputStep*> fitted_powers(const Shape& shape);
   const Mistake* fitted_exponent(const Shape& shape);
   bool has(const Shape& shape, Part part) const;

@@ -410,7 +410,7 @@ TEST(ShaderCallWithoutADriver, RefusesInOneLine) {
             "3: mine:3: syntax error: '{' is never closed");
   EXPECT_EQ(refusal_of({"", "\nfloat f(vec3 N, float n\n{ return 1.0; }\n"}),
             "3: mine:2: syntax error: '(' is never closed");
-  EXPECT_EQ(refusal_of({"", f + "float g(vec3 x) { return x.z; }\n"}),
+  EXPECT_EQ(refusal_of({"", f + "float g(vec3 x, float y) { return x.z * y; }\n"}),
             "2: mine: --function has to say which one is meant: f, g");
   EXPECT_EQ(refusal_of({"", "uniform float a;\n", {}, "f"}), "3: mine: has no function");
   EXPECT_EQ(refusal_of({"", f, {}, "g"}),
