@@ -246,6 +246,10 @@ TEST_P(EngineFormula, IsAsThePageSays) {
   if (result.output_tail.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "the page is of Mesa's llvmpipe";
   EXPECT_THAT(result.output_tail, HasSubstr("\n" + row[3] + "\n"));
+  const std::string readme = read_file(docs.parent_path() / "README.md", 1 << 20);
+  if (readme.find(GetParam()) != readme.npos) {
+    EXPECT_THAT(readme, HasSubstr("\n" + row[3] + "\n"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, EngineFormula, testing::ValuesIn(engine_formulas()),
