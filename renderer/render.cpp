@@ -15,7 +15,9 @@
 #include "base/system/threads.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/plan/idle_parts.hpp"
 #include "renderer/scene/scene_format.hpp"
+#include "renderer/small_highlights.hpp"
 #include "renderer/tile.hpp"
 
 namespace lobelia {
@@ -40,7 +42,11 @@ void require_whole_picture(const Film& film, std::string_view what) {
 class Render {
  public:
   Render(const Scene& scene, const RenderOptions& options, const RowSink& sink)
-      : scene_(scene), options_(options), sink_(sink) {}
+      : trimmed_(options.effects == EffectPolicy::kAsCalledFor ? without_idle_parts(scene)
+                                                               : std::nullopt),
+        scene_(trimmed_ ? *trimmed_ : scene),
+        options_(options),
+        sink_(sink) {}
 
   RenderResult run() {
     const auto start = Clock::now();
@@ -48,6 +54,8 @@ class Render {
     result_.instruction_set = kernels().instruction_set;
     result_.plan_seconds = seconds_since(start);
     started_ = Clock::now();
+    if (result_.plan.averages_highlights)
+      averaged_ = average_small_highlights(scene_, result_.plan, result_.work);
     const bool is_fused = options_.allow_fused && FusedRenderer::can_render(scene_, result_.plan);
     if (is_fused && is_small())
       fused();
@@ -94,6 +102,7 @@ class Render {
       require_whole_picture(scene_.film, "");
       result_.image = Image(width(), height());
       f(0, height(), result_.image.values().data());
+      put_averages(0, height(), result_.image.values().data());
       return;
     }
     const int rows = std::min(band_rows(scene_.film, options_.band_pixels), height());
@@ -101,6 +110,7 @@ class Render {
     if (rows == height()) {  // without a task_group, which would start oneTBB
       buffers[0].resize(std::size_t(3) * std::size_t(width()) * std::size_t(rows));
       f(0, rows, buffers[0].data());
+      put_averages(0, rows, buffers[0].data());
       if (!interrupted()) sink_(0, rows, buffers[0].data());
       return;
     }
@@ -110,11 +120,20 @@ class Render {
       auto& buffer = buffers[band % 2];
       buffer.resize(std::size_t(3) * std::size_t(width()) * std::size_t(y1 - y0));
       f(y0, y1, buffer.data());
+      put_averages(y0, y1, buffer.data());
       if (interrupted()) break;
       writing.wait();
       writing.run([this, y0, y1, &buffer] { sink_(y0, y1 - y0, buffer.data()); });
     }
     writing.wait();
+  }
+
+  void put_averages(int y0, int y1, float* rgb) const {
+    for (const auto& [x, y, mean] : averaged_) {
+      if (y < y0 || y >= y1) continue;
+      float* to = rgb + 3 * (std::size_t(width()) * std::size_t(y - y0) + std::size_t(x));
+      to[0] = float(mean.r), to[1] = float(mean.g), to[2] = float(mean.b);
+    }
   }
 
   /// One ray a pixel, by one kernel.
@@ -221,6 +240,7 @@ class Render {
     if (interrupted()) return;
     Image image(width(), height());
     frame.resolve(image);
+    put_averages(0, height(), image.values().data());
     if (sink_)
       sink_(0, height(), image.values().data());
     else
@@ -254,6 +274,7 @@ class Render {
   /// Sample indices have 32 bits, and so many samples leave less error than float32.
   static constexpr int kMostSamples = 1 << 20;
 
+  std::optional<Scene> trimmed_;
   const Scene& scene_;
   const RenderOptions& options_;
   const RowSink& sink_;
@@ -261,6 +282,7 @@ class Render {
   std::unique_ptr<TileRenderer> tiles_;
   /// Optional, because it allocates by oneTBB, whose allocator takes longer to load than a small picture to render.
   std::optional<oneapi::tbb::enumerable_thread_specific<Workspace>> workspaces_;
+  std::vector<AveragedPixel> averaged_;
   RenderResult result_;
 };
 

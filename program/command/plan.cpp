@@ -21,6 +21,7 @@ void run_plan(const PlanArguments& options) {
   outputs.writes_report(options.json);
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
+  scene.sampler.averages_small_highlights = true;
   warn_of(scene);
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
   write_reports(plan_text(plan, scene), {{options.json, record_text(plan_record(plan))}});

@@ -132,6 +132,7 @@ void apply(const RenderSettings& settings, Scene& scene) {
 Rendered rendered(Scene scene, const RenderSettings& settings) {
   require("threads", settings.threads, 0, 1024);
   apply(settings, scene);
+  scene.sampler.averages_small_highlights = true;
   RenderOptions options;
   options.threads = settings.threads;
   if (settings.on_progress)

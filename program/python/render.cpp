@@ -59,6 +59,7 @@ Rendered render_scene(const py::object& text, const py::dict& options, const py:
   how.precision = find_precision(given.precision);
   Scene scene = scene_of(text);
   given.overrides.apply(scene);
+  scene.sampler.averages_small_highlights = true;
   RenderResult result;
   std::string record;
   run(progress, [&](const ShowProgress& show) {

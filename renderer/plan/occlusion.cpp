@@ -108,7 +108,6 @@ std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, const Con
       for (std::size_t k = 0; k < scene.planes.size(); ++k) any.planes.push_back(int(k));
     } else {
       found[l].resize(surfaces);
-      if (is_black(strength(scene.lights[l])) && !all) continue;
       const LightBounds light = bounds(scene.lights[l]);
       for (std::size_t s = 0; s < surfaces; ++s) found[l][s] = occluders_of(scene, light, s, all);
     }

@@ -8,6 +8,7 @@
 #include "base/system/error.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/plan/idle_parts.hpp"
 
 namespace lobelia {
 namespace {
@@ -194,6 +195,9 @@ std::string kernel_text(const Scene& scene, const Plan& plan) {
 
 Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision> precision,
                Experiment experiment) {
+  if (policy == EffectPolicy::kAsCalledFor)
+    if (const auto trimmed = without_idle_parts(scene))
+      return make_plan(*trimmed, policy, precision, experiment);
   Plan plan;
   plan.policy = policy;
   plan.experiment = experiment;

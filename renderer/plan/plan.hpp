@@ -90,6 +90,8 @@ struct Plan {
   std::vector<Precision> any_direction_precision;  ///< by material, for all other directions
   std::string precision_reason;
 
+  bool averages_highlights =
+      false;              ///< that are smaller than a pixel (renderer/small_highlights.hpp)
   int first_samples = 1;  ///< of each pixel; the rest are taken only where these differ
   std::string sample_reason;
   Depth depth;         ///< of the reflections that are traced
@@ -115,7 +117,7 @@ concept EffectOfLight = requires(const Scene& scene, EffectPolicy policy, Plan& 
 };
 
 /// Every highlight gets `precision` or, without one, the narrowest precision that its error bound allows. The policy
-/// does not change the precision.
+/// does not change the precision. Unless all effects are asked for, the plan is that of the scene without_idle_parts().
 Plan make_plan(const Scene& scene, EffectPolicy policy,
                std::optional<Precision> precision = std::nullopt, Experiment experiment = {});
 

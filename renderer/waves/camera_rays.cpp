@@ -13,7 +13,7 @@ void place_on_film(const PreparedScene& prepared, std::span<const PixelSample> s
   if (prepared.scene.sampler.sample_count > 1)
     kernels().random(count, work.pixel.data(), work.index.data(), kPixel, film.u, film.v);
   for (std::size_t i = 0; i < count; ++i) {
-    FilterSampler::Offset from_center{};
+    FilterSampler::Offset from_center{samples[i].dx, samples[i].dy};
     if (prepared.scene.sampler.sample_count > 1)
       from_center = prepared.filter(results[i].negative, film.u[i], film.v[i]);
     film.u[i] = frame.film_u(samples[i].x + (0.5 + from_center.x));

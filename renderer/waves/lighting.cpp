@@ -243,7 +243,6 @@ void light_by(std::size_t l, const PreparedScene& prepared, const Wave& wave, Wo
   if (is_delta(light)) {
     prepared.lights[l]->sample(hits.count, hits.point, nullptr, nullptr, drawn);
   } else {
-    if (is_black(strength(light)) && !prepared.all_effects()) return;
     work.draw(wave, kLight + std::uint32_t(l));
     const auto strategy = prepared.plan.strategy[l][std::size_t(hits.material)];
     if (is_environment(light) && strategy == LightStrategy::kBoth)
@@ -265,7 +264,7 @@ void light_by(std::size_t l, const PreparedScene& prepared, const Wave& wave, Wo
 void add_met_lights(const PreparedScene& prepared, const Wave& wave, Workspace& work) {
   for (const std::size_t l : prepared.single_lights) {
     const Light& one = prepared.scene.lights[l];
-    if (is_delta(one) || (is_black(strength(one)) && !prepared.all_effects())) continue;
+    if (is_delta(one)) continue;
     if (is_environment(one)) {
       add_met_environment(prepared, wave, l, work);
       continue;

@@ -23,6 +23,7 @@ namespace lobelia {
 struct PixelSample {
   int x = 0, y = 0;
   std::uint32_t index = 0;
+  double dx = 0, dy = 0;  ///< from the pixel's centre; only where one ray a pixel was asked for
 };
 
 /// The result of a camera ray.

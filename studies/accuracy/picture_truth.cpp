@@ -13,6 +13,7 @@
 #include "base/words/constants.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "renderer/small_highlights.hpp"
 
 namespace lobelia::accuracy {
 namespace {
@@ -36,7 +37,10 @@ RenderOptions with_samples(int samples) {
 
 PictureTruth picture_truth(const Scene& scene, int samples) {
   PictureTruth result;
-  const bool formulas = truth::why_not_evaluated(scene).empty();
+  // The formulas are those of a pixel's centre.
+  const bool averages =
+      scene.sampler.averages_small_highlights && !find_small_highlights(scene).empty();
+  const bool formulas = !averages && truth::why_not_evaluated(scene).empty();
   result.how =
       formulas ? "the formulas of every pixel, in double"
       : samples > 1

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "renderer/plan/plan.hpp"
+#include "renderer/small_highlights.hpp"
 
 namespace lobelia::effects {
 
@@ -21,7 +22,7 @@ struct Antialiasing {
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const int samples = scene.sampler.sample_count;
     plan.first_samples = samples;
-    if (samples == 1) return {false, "one ray a pixel, through its centre"};
+    if (samples == 1) return decide_one_ray(scene, plan);
     std::string reason =
         fmt::format("{} rays a pixel were asked for, {} filter", samples, name(scene.film.filter));
     const std::string everywhere = why_every_pixel(scene, plan);
@@ -42,6 +43,21 @@ struct Antialiasing {
           kFirst, samples, 1 / kSame, reach, reach == 1 ? "" : "s");
     }
     return {true, reason + "; " + plan.sample_reason};
+  }
+
+ private:
+  static EffectDecision decide_one_ray(const Scene& scene, Plan& plan) {
+    const std::string one = "one ray a pixel, through its centre";
+    if (!scene.sampler.averages_small_highlights) return {false, one};
+    const std::vector<SmallHighlight> small = find_small_highlights(scene);
+    if (small.empty()) return {false, one};
+    plan.averages_highlights = true;
+    const double width = std::ranges::min(small, {}, &SmallHighlight::width).width;
+    return {
+        true,
+        fmt::format("{}; {} highlight{} narrower than a pixel, down to a standard deviation of "
+                    "{:.2g} pixels: the pixels around are averaged, within {:g} of the energy",
+                    one, small.size(), small.size() == 1 ? " is" : "s are", width, kAverageError)};
   }
 };
 

@@ -13,11 +13,11 @@ struct Glossy {
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const bool all = policy == EffectPolicy::kAll;
+    plan.depth.glossy = scene.depth.glossy;
+    if (scene.spheres.size() + scene.planes.size() < 2)
+      return {all, "one convex body throws no light on itself"};
     if (scene.depth.glossy == 0)
       return {all, "no inter-reflection was asked for (glossy_depth is 0)"};
-    const bool single = scene.spheres.size() + scene.planes.size() < 2;
-    if (all || !single) plan.depth.glossy = scene.depth.glossy;
-    if (single) return {all, "one convex body throws no light on itself"};
     const auto lamps = std::ranges::count_if(scene.lights, is_delta);
     plan.draws_lamp = !plan.experiment.sum_all_lights && lamps > std::ptrdiff_t(kMaxSummedLights);
     return {true,

@@ -253,6 +253,60 @@ std::string figures(const RenderResult& r) {
                      r.work.mirror_rays, r.work.scattered_rays, fmt::join(r.work.of_effect, " "));
 }
 
+/// Adds what cannot change the picture, each part with its chance; what it added, in words.
+std::string add_idle_parts(Scene& s, Random& random) {
+  std::string added;
+  const Light black[] = {DirectionalLight{random.direction(), {}},
+                         PointLight{random.vector(), {}},
+                         SphereLight{random.vector(), 1, {}},
+                         RectangleLight{random.vector(), {1, 0, 0}, {0, 0, 1}, {}},
+                         ConstantLight{},
+                         EnvmapLight{{}, sky(), "sky.exr"},
+                         EnvmapLight{{1, 1, 1}, std::make_shared<Image>(2, 1), "black.exr"}};
+  for (const Light& light : black)
+    if (random.chance(0.4)) {
+      s.lights.insert(s.lights.begin() + random.below(int(s.lights.size()) + 1), light);
+      added += fmt::format("{} ", info(light).type);
+    }
+  if (s.spheres.size() + s.planes.size() < 2 && random.chance(0.5)) {
+    s.depth.glossy = 8;
+    added += "glossy_depth ";
+  }
+  if (std::ranges::none_of(s.materials, is_mirror) && random.chance(0.5)) {
+    s.depth.mirror = 1 + random.below(4);
+    added += "mirror_depth ";
+  }
+  if (s.sampler.sample_count == 1 && random.chance(0.5)) {
+    s.film.filter = *find_filter(random.one_of(filter_names()));
+    added += "filter ";
+  }
+  return added;
+}
+
+TEST(RandomScenes, CostNoMoreWithPartsThatCannotChangeThem) {
+  int changed = 0;
+  expect_of_random_scenes(SceneKind::kAny, 200, [&](const Scene& scene, Random& random) {
+    Scene other = scene;
+    const std::string added = add_idle_parts(other, random);
+    if (added.empty()) return std::string();
+    ++changed;
+    RenderOptions options;
+    options.max_samples = kMostRandomSamples;
+    const RenderResult without = render(scene, options), with = render(other, options);
+    std::string wrong = difference(without.image, with.image, added);
+    if (figures(with) != figures(without))
+      wrong += fmt::format("{}: {}, and {} without\n", added, figures(with), figures(without));
+    if (with.plan.kernel != without.plan.kernel)
+      wrong +=
+          fmt::format("{}: {}, and {} without\n", added, with.plan.kernel, without.plan.kernel);
+    for (std::size_t e = 0; e < with.plan.effects.size(); ++e)
+      if (with.plan.effects[e].on != without.plan.effects[e].on)
+        wrong += fmt::format("{}: {} is turned over\n", added, with.plan.effects[e].name);
+    return wrong;
+  });
+  EXPECT_GT(changed, 100);
+}
+
 TEST(RandomScenes, AreTheSameBitForBitInBandsAsInOnePieceInAnyNumberOfThreads) {
   int several_bands = 0, noisy = 0;
   const auto law = [&](const Scene& random_one, Random& random) {
