@@ -22,6 +22,14 @@ constexpr Parameter kMitsubaPhongParameters[] = {
     {"specular_reflectance", ParameterType::kRgb, "0.2", 0, 1, "", ""},
     {"diffuse_reflectance", ParameterType::kRgb, "0.5", 0, 1, "", ""},
 };
+/// Of the exponents 0.001 to 1e8.
+constexpr double kLeastAlpha = 1.5e-4, kMostAlpha = 0.999;
+constexpr Parameter kMitsubaConductorParameters[] = {
+    {"distribution", ParameterType::kString, "beckmann", 0, 0, "", ""},
+    {"material", ParameterType::kString, "none", 0, 0, "", ""},
+    {"alpha", ParameterType::kFloat, "0.1", kLeastAlpha, kMostAlpha, "", ""},
+    {"specular_reflectance", ParameterType::kRgb, "1", 0, 1, "", ""},
+};
 constexpr Parameter kMitsubaDiffuseParameters[] = {
     {"reflectance", ParameterType::kRgb, "0.5", 0, 1, "", ""},
 };
@@ -105,7 +113,11 @@ class MitsubaReader {
     const std::string_view type = MitsubaSource::type(node);
     std::optional<Light> light;
     if (!without_problem([&] {
-          if (type == "directional" || type == "point" || type == "constant")
+          if (type == "directional")
+            light = placed(node, "vector", "direction", {0, 0, 1});
+          else if (type == "point")
+            light = placed(node, "point", "position", {});
+          else if (type == "constant")
             light = lights_.read(node);
           else if (type == "envmap")
             light = envmap(node);
@@ -114,6 +126,30 @@ class MitsubaReader {
         }))
       return;
     if (light) scene_.lights.push_back(*light);
+  }
+
+  /// A light without a size, whose place or direction may be `original` turned and moved by to_world.
+  std::optional<Light> placed(pugi::xml_node node, const char* tag, const char* parameter,
+                              Vec3 original) {
+    const auto transform = file_.transform(node);
+    if (!transform) return std::nullopt;
+    if (node.child("transform")) {
+      if (node.find_child_by_attribute("name", parameter)) {
+        source_.error(node,
+                      fmt::format("it has both a to_world and a {}; one is allowed", parameter));
+        return std::nullopt;
+      }
+      while (node.remove_child("transform")) {
+      }
+      const bool is_place = std::string_view(tag) == "point";
+      const Vec3 v =
+          is_place ? transform->matrix.of_point(original) : transform->matrix.of_vector(original);
+      auto made = node.append_child(tag);
+      made.append_attribute("name").set_value(parameter);
+      made.append_attribute("value").set_value(
+          fmt::format("{:.17g}, {:.17g}, {:.17g}", v.x, v.y, v.z).c_str());
+    }
+    return lights_.read(node);
   }
 
   std::optional<Light> envmap(pugi::xml_node node) {
@@ -158,6 +194,13 @@ class MitsubaReader {
       material.highlight.exponent = values.number("exponent");
       material.specular_reflectance = values.rgb("specular_reflectance");
       material.diffuse_reflectance = values.rgb("diffuse_reflectance");
+    } else if (is_plain_ggx(node)) {
+      const Values values = file_.values(node, kMitsubaConductorParameters, {"boolean"});
+      const double alpha = values.number("alpha");
+      material.highlight = {
+          *find_model("microfacet_smith"), *find_lobe("ggx"), {}, 2 / (alpha * alpha) - 2};
+      material.specular_reflectance = values.rgb("specular_reflectance");
+      material.diffuse_reflectance = {};
     } else if (MitsubaSource::type(node) == "diffuse") {
       material.diffuse_reflectance =
           file_.values(node, kMitsubaDiffuseParameters).rgb("reflectance");
@@ -165,6 +208,17 @@ class MitsubaReader {
       file_.unsupported(node, "its surfaces are diffuse with a reflectance of 0.5 instead");
     }
     return material;
+  }
+
+  /// A rough mirror with GGX and without a metal's Fresnel factor. Versions before 2 take copper if no material is named.
+  bool is_plain_ggx(pugi::xml_node node) const {
+    const auto text = [&](const char* name) -> std::string_view {
+      return node.find_child_by_attribute("string", "name", name).attribute("value").value();
+    };
+    return MitsubaSource::type(node) == "roughconductor" && text("distribution") == "ggx" &&
+           (text("material") == "none" || (text("material").empty() && !file_.is_old())) &&
+           !node.find_child_by_attribute("name", "eta") &&
+           !node.find_child_by_attribute("name", "k");
   }
 
   /// The new material's place, or 0 if there are too many.

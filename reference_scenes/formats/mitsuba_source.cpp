@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/pictures/colour.hpp"
 #include "base/words/constants.hpp"
 
 namespace lobelia {
@@ -144,11 +145,30 @@ void MitsubaSource::prepare(pugi::xml_node node, int depth) {
         // A spectrum of one number is the same in every channel.
         const bool has_value = bool(child.attribute("value"));
         if (tag == "spectrum" && has_value && !child.attribute("type")) child.set_name("rgb");
+        read_colour(child);
         prepare(child, depth + 1);
       }
     }
     child = next;
   }
+}
+
+void MitsubaSource::read_colour(pugi::xml_node node) {
+  const bool is_encoded = std::string_view(node.name()) == "srgb";
+  auto value = node.attribute("value");
+  if ((!is_encoded && std::string_view(node.name()) != "rgb") || !value) return;
+  if (const auto colour = colour_of_hex(value.value())) {
+    value.set_value(fmt::format("{}, {}, {}", colour->r, colour->g, colour->b).c_str());
+  } else if (is_encoded) {
+    std::string linear;
+    for (const std::string& part : split_numbers(value.value())) {
+      double number = 0;
+      if (!parse_number(part, number)) return;  // the reader of parameters says so
+      linear += fmt::format("{}{}", linear.empty() ? "" : ", ", srgb_decoded(float(number)));
+    }
+    value.set_value(linear.c_str());
+  }
+  if (is_encoded) node.set_name("rgb");
 }
 
 std::optional<double> MitsubaSource::number(pugi::xml_node node, std::string_view text) {

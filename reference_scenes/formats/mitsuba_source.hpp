@@ -46,6 +46,7 @@ class MitsubaSource {
   XmlSource& xml() { return xml_; }
   ElementReader& reader() { return reader_; }
   pugi::xml_node root() const { return xml_.root(); }
+  bool is_old() const { return is_old_; }
 
   static std::string_view type(pugi::xml_node element) { return element.attribute("type").value(); }
   /// Notes that the element is not supported, and what becomes of it: "it is left out".
@@ -63,6 +64,8 @@ class MitsubaSource {
   void read_defaults();
   void prepare(pugi::xml_node node, int depth);
   void fill_in(pugi::xml_node node, pugi::xml_attribute attribute);
+  /// Makes linear numbers of <srgb> and of "#ff8000", which stands for sRGB in any colour.
+  void read_colour(pugi::xml_node node);
   std::optional<Affine> step(pugi::xml_node node, std::optional<LookAt>& lookat);
   std::optional<Vec3> triple(pugi::xml_node node, const char* attribute);
   std::optional<Vec3> components(pugi::xml_node node, double otherwise);

@@ -18,19 +18,12 @@ std::string join_words(std::string_view text) {
   return result;
 }
 
-/// For "#ff8800", as on the web, the linear numbers that it stands for; else "".
+/// For "#ff8800" the linear numbers that it stands for; else "".
 std::string linear_text(std::string_view text) {
-  if (text.size() != 7 || text[0] != '#') return "";
-  std::string numbers;
-  for (std::size_t at = 1; at < 7; at += 2) {
-    int code = 0;
-    if (std::from_chars(text.data() + at, text.data() + at + 2, code, 16).ptr !=
-        text.data() + at + 2)
-      return "";
-    numbers +=
-        fmt::format("{}{:.4g}", numbers.empty() ? "" : ", ", srgb_decoded(float(code) / 255));
-  }
-  return fmt::format(" (in linear light it is '{}')", numbers);
+  const auto colour = colour_of_hex(text);
+  return colour ? fmt::format(" (in linear light it is '{:.4g}, {:.4g}, {:.4g}')", colour->r,
+                              colour->g, colour->b)
+                : "";
 }
 
 std::string allowed_range(const Parameter& p) {
@@ -38,6 +31,18 @@ std::string allowed_range(const Parameter& p) {
 }
 
 }  // namespace
+
+std::optional<Rgb> colour_of_hex(std::string_view text) {
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  double linear[3];
+  for (const std::size_t i : {0, 1, 2}) {
+    const char* digits = text.data() + 1 + 2 * i;
+    int code = 0;
+    if (std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2) return std::nullopt;
+    linear[i] = double(srgb_decoded(float(code) / 255));
+  }
+  return Rgb{linear[0], linear[1], linear[2]};
+}
 
 std::vector<std::string> split_numbers(std::string_view text) {
   if (text.size() > 1024) return {};  // megabytes of commas would be gigabytes of parts

@@ -46,6 +46,9 @@ class Values {
   std::vector<std::pair<std::string_view, Value>> values_;  ///< few: a search in order is fastest
 };
 
+/// The linear light of a colour such as "#ff8800", as on the web.
+std::optional<Rgb> colour_of_hex(std::string_view text);
+
 /// The parts between commas and spaces; none if the text is too long for three numbers.
 std::vector<std::string> split_numbers(std::string_view text);
 

@@ -41,6 +41,7 @@ namespace lobelia::paper {
   CLAIM(gauss_inverse_cosine)          \
   CLAIM(gauss_angle)                   \
   CLAIM(more_accurate_lobe)            \
+  CLAIM(cosine_of_reflection)          \
   CLAIM(reciprocity_of_brdfs)          \
   CLAIM(reciprocity_of_rdfs)           \
   CLAIM(energy_of_cs16)                \

@@ -200,6 +200,63 @@ TEST(Mitsuba, IsReadOfVersionsThatWriteNamesAsOneWord) {
   EXPECT_EQ(read.scene.film.width, 768);
 }
 
+TEST(Mitsuba, TurnsAndMovesLightsWithoutASize) {
+  const ImportedScene read = parse_mitsuba(R"(<scene version="0.6.0">
+    <sensor type="perspective"><float name="fov" value="30"/></sensor><shape type="sphere"/>
+    <emitter type="directional"><transform name="toWorld"><lookat origin="0,4,0" target="0,0,0" up="1,0,0"/></transform></emitter>
+    <emitter type="point"><transform name="toWorld"><scale value="2"/><translate x="3" y="1" z="2"/></transform>
+      <spectrum name="intensity" value="4"/></emitter>
+    <emitter type="directional"/></scene>)",
+                                           "old.xml");
+  EXPECT_THAT(read.problems, ElementsAre());
+  ASSERT_EQ(read.scene.lights.size(), 3u);
+  const auto& down = std::get<DirectionalLight>(read.scene.lights[0]);
+  EXPECT_NEAR(length(down.direction - Vec3{0, -1, 0}), 0, 1e-12);
+  const auto& point = std::get<PointLight>(read.scene.lights[1]);
+  EXPECT_EQ(point.position, (Vec3{3, 1, 2}));
+  EXPECT_EQ(point.intensity, (Rgb{4, 4, 4}));
+}
+
+TEST(Mitsuba, ReadsColoursThatAreEncodedAsSrgb) {
+  const ImportedScene read = parse_mitsuba(R"(<scene version="0.6.0">
+    <sensor type="perspective"><float name="fov" value="30"/></sensor>
+    <shape type="sphere"><bsdf type="phong"><srgb name="specularReflectance" value="#ff8000"/>
+      <srgb name="diffuseReflectance" value="0.5, 0.5, 0"/></bsdf></shape>
+    <shape type="sphere"><bsdf type="phong"><rgb name="specularReflectance" value="#ff8000"/></bsdf></shape></scene>)",
+                                           "old.xml");
+  EXPECT_THAT(read.problems, ElementsAre());
+  for (const Material& m : read.scene.materials) {
+    EXPECT_EQ(m.specular_reflectance.r, 1);
+    EXPECT_NEAR(m.specular_reflectance.g, 0.2158605, 1e-6);  // ((128/255 + 0.055) / 1.055)^2.4
+    EXPECT_EQ(m.specular_reflectance.b, 0);
+  }
+  EXPECT_NEAR(read.scene.materials[0].diffuse_reflectance.g, 0.2140411, 1e-6);
+}
+
+TEST(Mitsuba, ReadsARoughMirrorWithGgx) {
+  const std::string ggx =
+      "<shape type=\"sphere\"><bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/>"
+      "<float name=\"alpha\" value=\"0.2\"/>{}</bsdf></shape>";
+  const std::string head =
+      "<scene version=\"{}\"><sensor type=\"perspective\"><float name=\"fov\" value=\"30\"/></sensor>";
+  const ImportedScene read =
+      parse_mitsuba(fmt::format(fmt::runtime(head + ggx + "</scene>"), "3.0.0", ""), "s.xml");
+  EXPECT_THAT(read.problems, ElementsAre());
+  const Material& m = read.scene.materials.at(0);
+  EXPECT_EQ(info(m.highlight.model).name, "microfacet_smith");
+  EXPECT_EQ(info(m.highlight.lobe).name, "ggx");
+  EXPECT_NEAR(m.highlight.exponent, 48, 1e-9);
+  EXPECT_EQ(m.specular_reflectance, (Rgb{1, 1, 1}));
+  EXPECT_TRUE(is_black(m.diffuse_reflectance));
+  for (const auto& [version, more] :
+       {std::pair("0.6.0", ""), std::pair("3.0.0", "<string name=\"material\" value=\"Au\"/>")})
+    EXPECT_THAT(
+        parse_mitsuba(fmt::format(fmt::runtime(head + ggx + "</scene>"), version, more), "s.xml")
+            .problems,
+        ElementsAre(HasSubstr("roughconductor\"> is not supported")))
+        << version;
+}
+
 /// A scene with `inside` in it, from its seventh line on.
 std::string scene_with(const std::string& inside) {
   return "<scene version=\"3.0.0\">\n<sensor type=\"perspective\">\n<float name=\"fov\" value=\"30\"/>\n"
@@ -219,6 +276,8 @@ TEST(Mitsuba, NamesUnreadPartsWithTheirLines) {
        "s.xml:7:2: <shape type=\"obj\"> is not supported; it is left out"},
       {"\n<bsdf type=\"roughplastic\" id=\"x\"/>",
        "s.xml:8:2: <bsdf type=\"roughplastic\"> is not supported; its surfaces are diffuse"},
+      {"<emitter type=\"point\"><point name=\"position\" x=\"1\"/><transform name=\"to_world\"/></emitter>",
+       "both a to_world and a position"},
       {"<emitter type=\"spot\"/>", "s.xml:7:2: <emitter type=\"spot\"> is not supported"},
       {"<include filename=\"other.xml\"/>", "s.xml:7:2: <include> is not supported; other files"},
       {"<medium type=\"homogeneous\"/>", "s.xml:7:2: <medium type=\"homogeneous\">"},

@@ -40,6 +40,7 @@ TEST(PaperFindings, HaveTheMeasuredFiguresThatAreKnown) {
   const double pi_by_180 = std::acos(-1) / 180;
   const Pin pins[] = {
       {"cs16-largest-error", 0, 0.017012, 1e-6},
+      {"cosine-of-reflection", 0, 2 * std::sin(15 * pi_by_180), 1e-12},
       {"cs16-smallest-error", 0, 0, 1e-15},
       {"cs16-smallest-error", 1, 10.369, 5e-3},
       {"cs16-operations", 0, 4, 0},
