@@ -44,9 +44,11 @@ class Averager {
 
   std::vector<AveragedPixel> run(Work& work) {
     for (const SmallHighlight& highlight : highlights_) average_around(highlight);
-    work.of<effects::Antialiasing>() += workspace_.work.camera_rays;
-    workspace_.work.camera_rays = 0;
-    work += workspace_.work;
+    Work& done = workspace_.work;
+    work.of<effects::Antialiasing>() +=
+        done.camera_rays + done.shadow_rays + done.mirror_rays + done.scattered_rays;
+    done.camera_rays = done.shadow_rays = done.mirror_rays = done.scattered_rays = 0;
+    work += done;
     std::vector<AveragedPixel> all;
     for (const auto& [at, mean] : means_)
       all.push_back({int(at % std::size_t(film_.width)), int(at / std::size_t(film_.width)), mean});

@@ -9,6 +9,7 @@
 #include "renderer/frame.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
+#include "renderer/plan/idle_parts.hpp"
 
 namespace lobelia {
 namespace {
@@ -168,6 +169,7 @@ class Finder {
 }  // namespace
 
 std::vector<SmallHighlight> find_small_highlights(const Scene& scene) {
+  if (const auto trimmed = without_idle_parts(scene)) return find_small_highlights(*trimmed);
   const std::size_t surfaces = scene.spheres.size() + scene.planes.size();
   const bool is_random = scene.camera.aperture_radius > 0 ||
                          (scene.depth.glossy > 0 && surfaces > 1) ||

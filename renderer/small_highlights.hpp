@@ -34,7 +34,7 @@ struct AveragedPixel {
 };
 
 /// The means over the pixels that such highlights touch, within kAverageError of their energy, in reading order. Adds the
-/// rays to `work`. `plan` is the scene's.
+/// rays to `work`, as those of antialiasing. `plan` is the scene's.
 std::vector<AveragedPixel> average_small_highlights(const Scene& scene, const Plan& plan,
                                                     Work& work);
 

@@ -49,7 +49,9 @@ std::string wrong_counts(const RenderResult& r, std::string_view policy) {
 
 TEST(RandomScenes, AreTheSameBitForBitWithEveryEffectForced) {
   int lit = 0;
-  expect_of_random_scenes(SceneKind::kExact, 400, [&](const Scene& scene, Random&) {
+  expect_of_random_scenes(SceneKind::kExact, 400, [&](const Scene& random_one, Random& random) {
+    Scene scene = random_one;
+    scene.sampler.averages_small_highlights = random.chance(0.5);
     const RenderResult planned = render(scene, with(EffectPolicy::kAsCalledFor)),
                        all = render(scene, with(EffectPolicy::kAll));
     lit += std::any_of(planned.image.values().begin(), planned.image.values().end(),
@@ -313,6 +315,7 @@ TEST(RandomScenes, AreTheSameBitForBitInBandsAsInOnePieceInAnyNumberOfThreads) {
     Scene scene = random_one;
     scene.film.width = 1 + random.below(100);
     scene.film.height = 1 + random.below(200);
+    scene.sampler.averages_small_highlights = random.chance(0.5);
     RenderOptions options;
     if (random.chance(0.2)) options.target_error = 0.3, options.max_samples = 8;
     const RenderResult whole = render(scene, options);
@@ -341,7 +344,9 @@ TEST(RandomScenes, AreTheSameBitForBitInBandsAsInOnePieceInAnyNumberOfThreads) {
 
 TEST(RandomScenes, AreFiniteAndNotNegative) {
   int random_ones = 0;
-  expect_of_random_scenes(SceneKind::kAny, 300, [&](const Scene& scene, Random& random) {
+  expect_of_random_scenes(SceneKind::kAny, 300, [&](const Scene& random_one, Random& random) {
+    Scene scene = random_one;
+    scene.sampler.averages_small_highlights = random.chance(0.5);
     const RenderResult result =
         render(scene, with(random.chance(0.5) ? EffectPolicy::kAsCalledFor : EffectPolicy::kAll));
     random_ones += result.error.has_value();
