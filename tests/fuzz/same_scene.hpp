@@ -20,8 +20,8 @@ inline auto fields(const Film& f) {
   return std::tie(width, height, filter);
 }
 inline auto fields(const Sampler& s) {
-  const auto& [samples, seed] = s;
-  return std::tie(samples, seed);
+  const auto& [samples, seed, averages] = s;
+  return std::tie(samples, seed, averages);
 }
 inline auto fields(const Highlight& h) {
   const auto& [model, lobe, normalisation, exponent] = h;
