@@ -5,7 +5,7 @@
 namespace house {
 namespace {
 
-constexpr std::int64_t kLinesOfProgram = 120'700, kLinesOfTests = 49'600, kWordsOfDocs = 35'000;
+constexpr std::int64_t kLinesOfProgram = 121'400, kLinesOfTests = 49'900, kWordsOfDocs = 35'000;
 
 bool is_source(const fs::path& file, const std::set<std::string>& endings) {
   static const std::set<std::string> generated{"gallery/web/src/records.ts",
