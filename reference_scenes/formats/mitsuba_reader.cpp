@@ -133,12 +133,13 @@ class MitsubaReader {
                               Vec3 original) {
     const auto transform = file_.transform(node);
     if (!transform) return std::nullopt;
-    if (node.child("transform")) {
-      if (node.find_child_by_attribute("name", parameter)) {
-        source_.error(node,
-                      fmt::format("it has both a to_world and a {}; one is allowed", parameter));
-        return std::nullopt;
-      }
+    const bool has_parameter(node.find_child_by_attribute("name", parameter));
+    if (has_parameter && node.child("transform")) {
+      source_.error(node,
+                    fmt::format("it has both a to_world and a {}; one is allowed", parameter));
+      return std::nullopt;
+    }
+    if (!has_parameter) {
       while (node.remove_child("transform")) {
       }
       const bool is_place = std::string_view(tag) == "point";

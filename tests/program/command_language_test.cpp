@@ -118,7 +118,7 @@ TEST(Verbose, PrintsThePlanOfARenderWithItsTime) {
   const auto result =
       run_lobelia({"render", kScenes + "head_on.xml", "-o", "a.exr", "-v"}, directory.path());
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.output_tail, HasSubstr("inter-reflection"));
+  EXPECT_THAT(result.output_tail, HasSubstr("throws no light on itself"));
   EXPECT_THAT(result.output_tail, testing::ContainsRegex("lobelia render: .* s, .* MiB"));
   EXPECT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "-o", "a.exr", "-q"}, directory.path())
                 .output_tail,
