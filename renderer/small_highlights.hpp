@@ -13,9 +13,9 @@ struct Work;
 
 /// With a narrower highlight a sum over pixels' centres is off by more than 3e-5 of its energy: 2 exp(-2 pi^2 w^2).
 inline constexpr double kLeastWidth = 0.75;  // pixels
-/// What an average may be off by, as a share of the highlight's energy.
+/// The largest error of an average, as a share of the highlight's energy.
 inline constexpr double kAverageError = 1e-3;
-/// Of more pairs of a surface and a light none is looked for.
+/// Scenes with more pairs of a surface and a light are not searched.
 inline constexpr std::size_t kMostPairsSearched = 4096;
 
 struct SmallHighlight {

@@ -33,8 +33,8 @@ struct Film {
 struct Sampler {
   int sample_count = 1;    ///< rays per pixel, 1..65536; 1 means the pixel's centre
   std::uint64_t seed = 0;  ///< used only where sample_count > 1
-  /// Of one ray a pixel: average the pixels around highlights that are smaller than a pixel. Engines, and so comparisons
-  /// with them, take the centre's ray alone.
+  /// Whether the pixels around a highlight smaller than a pixel are averaged, where one ray a pixel was asked for. Engines
+  /// take the centre's ray alone, and so do comparisons with them.
   bool averages_small_highlights = false;
 };
 

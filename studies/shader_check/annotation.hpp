@@ -1,4 +1,4 @@
-// What differs, as a line for GitHub Actions, which shows it beside the line of the shader.
+// Tells GitHub Actions what differs, in a line that it shows beside the line of the shader.
 #pragma once
 
 #include <span>

@@ -188,7 +188,7 @@ std::vector<std::string> likely_arguments(const FunctionDeclaration& function, s
     if (!takes_word(one)) continue;
     const TypeShape shape = shape_of(one.type);
     Meaning meaning = meaning_of(one.name, shape);
-    // What is added to may begin at 0.
+    // A parameter that the function only adds to begins at 0.
     if (one.is_out && !meaning.is_told) meaning.values = {"0"};
     if (meaning.values.empty() && (shape.rows == 3 || shape.rows == 4) && shape.columns == 1)
       meaning.values = {"N", "V", "L", "H", "R"};

@@ -157,8 +157,8 @@ std::optional<records::ShaderExplanation> empty_explanation(const Observed& obse
   return found;
 }
 
-/// Of two models that explain the same values, the one is told whose coefficient has a factor, not the one with another
-/// coefficient, and the one that has a geometry term.
+/// If two models explain the same values, the report names the one that is off by a known factor rather than the one that
+/// needs another coefficient, and the one that has a geometry term.
 double rank(const Candidate& candidate) {
   constexpr double kLess = 0.1;
   const auto ids = candidate.ids();

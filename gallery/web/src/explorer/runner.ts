@@ -1,4 +1,4 @@
-// What runs a reader's shader: WebGL 2 or WebGPU, in small parts, with an end after some seconds.
+// Runs a reader's shader on WebGL 2 or WebGPU, in small parts, and gives up after some seconds.
 import { GlRunner } from './gl_runner';
 import { GpuRunner } from './gpu_runner';
 import type { Job, Language } from './search';
