@@ -145,6 +145,19 @@ TEST(SmallHighlights, HaveTheirEnergyAtEveryExponentAndSizeOfPicture) {
   EXPECT_GT(missed, 20);
 }
 
+TEST(SmallHighlights, HaveTheirEnergyWithEveryLobe) {
+  Random random(62);
+  for (const LobeId& lobe : all_lobes())
+    for (int k = 0; k < 3; ++k) {
+      Scene scene = random_sphere(random, random.log_between(1e4, 1e8), 128);
+      scene.materials[0].highlight.lobe = lobe;
+      const RenderResult result = render(scene, {});
+      EXPECT_TRUE(result.plan.averages_highlights);
+      EXPECT_NEAR(energy(result.image) / EnergyOnFilm(scene).value(), 1, kAverageError)
+          << info(lobe).name << ", " << scene.materials[0].highlight.exponent;
+    }
+}
+
 TEST(SmallHighlights, LeaveAPictureOfWideOnesAsItIs) {
   Random random(60);
   for (int k = 0; k < 40; ++k) {
@@ -164,8 +177,9 @@ TEST(SmallHighlights, AreTheSameWithEveryEffectForced) {
     Scene scene = random_sphere(random, random.log_between(1e4, 1e8), 64);
     RenderOptions all;
     all.effects = EffectPolicy::kAll;
-    EXPECT_TRUE(
-        std::ranges::equal(render(scene, {}).image.values(), render(scene, all).image.values()));
+    const RenderResult planned = render(scene, {});
+    EXPECT_TRUE(planned.plan.averages_highlights);
+    EXPECT_TRUE(std::ranges::equal(planned.image.values(), render(scene, all).image.values()));
   }
 }
 
