@@ -178,7 +178,7 @@ std::vector<SmallHighlight> find_small_highlights(const Scene& scene) {
   Finder finder(scene);
   for (const Light& light : scene.lights) {
     const auto lamp = find_lamp(light);
-    if (!lamp || is_black(lamp->strength)) continue;
+    if (!lamp) continue;
     for (const Sphere& sphere : scene.spheres)
       finder.look(sphere, scene.materials[std::size_t(sphere.material)], *lamp);
     for (const Plane& plane : scene.planes) {

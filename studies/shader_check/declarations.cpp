@@ -1,4 +1,4 @@
-#include "studies/shader_check/declarations.hpp"
+#include "studies/shader_check/token_cursor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,43 +31,17 @@ struct Head {
 };
 
 /// GLSL and HLSL.
-class Parser {
+class Parser : TokenCursor {
  public:
   Parser(const TokenList& list, std::string_view plain, ShaderText language)
-      : list_(list), plain_(plain), is_hlsl_(language == ShaderText::kHlsl), language_(language) {}
+      : TokenCursor(list, plain), is_hlsl_(language == ShaderText::kHlsl), language_(language) {}
 
   Declarations all() {
-    while (at_ < list_.size()) {
-      const std::size_t before = at_;
-      one();
-      if (at_ <= before) at_ = before + 1;
-    }
+    read_all([&] { one(); });
     return std::move(found_);
   }
 
  private:
-  std::string_view word(std::size_t i) const {
-    return i < list_.size() ? list_.tokens[i].text : std::string_view();
-  }
-  bool is(std::size_t i, std::string_view text) const { return list_.is(i, text); }
-  // A text may end anywhere, so a place may lie behind the last token.
-
-  /// Behind the bracket that opens at `i`.
-  std::size_t behind(std::size_t i) const {
-    return i < list_.size() ? std::min(list_.partner[i] + 1, list_.size()) : list_.size();
-  }
-  std::string text_of(std::size_t begin, std::size_t end) const {
-    end = std::min(end, list_.size());
-    if (begin >= end) return "";
-    const std::size_t from = list_.tokens[begin].at;
-    return std::string(plain_.substr(from, list_.tokens[end - 1].end() - from));
-  }
-  void replace(std::size_t begin, std::size_t end, std::string text = {}) {
-    end = std::min(end, list_.size());
-    if (begin < end)
-      found_.edits.push_back(
-          {list_.tokens[begin].at, list_.tokens[end - 1].end(), std::move(text)});
-  }
   void insert(std::size_t i, std::string text) {
     if (i >= list_.size()) return;
     found_.edits.push_back({list_.tokens[i].at, list_.tokens[i].at, std::move(text)});
@@ -425,12 +399,8 @@ class Parser {
     replace(begin, at_);
   }
 
-  const TokenList& list_;
-  std::string_view plain_;
   bool is_hlsl_;
   ShaderText language_;
-  std::size_t at_ = 0;
-  Declarations found_;
 };
 
 }  // namespace

@@ -1,47 +1,22 @@
 #include <algorithm>
 
-#include "studies/shader_check/declarations.hpp"
+#include "studies/shader_check/token_cursor.hpp"
 
 namespace lobelia {
 namespace {
 
 using Kind = GlobalVariable::Kind;
 
-class WgslParser {
+class WgslParser : TokenCursor {
  public:
-  WgslParser(const TokenList& list, std::string_view plain) : list_(list), plain_(plain) {}
+  WgslParser(const TokenList& list, std::string_view plain) : TokenCursor(list, plain) {}
 
   Declarations all() {
-    while (at_ < list_.size()) {
-      const std::size_t before = at_;
-      one();
-      if (at_ <= before) at_ = before + 1;
-    }
+    read_all([&] { one(); });
     return std::move(found_);
   }
 
  private:
-  std::string_view word(std::size_t i) const {
-    return i < list_.size() ? list_.tokens[i].text : std::string_view();
-  }
-  bool is(std::size_t i, std::string_view text) const { return list_.is(i, text); }
-  // A text may end anywhere, so a place may lie behind the last token.
-  std::size_t behind(std::size_t i) const {
-    return i < list_.size() ? std::min(list_.partner[i] + 1, list_.size()) : list_.size();
-  }
-  std::string text_of(std::size_t begin, std::size_t end) const {
-    end = std::min(end, list_.size());
-    if (begin >= end) return "";
-    const std::size_t from = list_.tokens[begin].at;
-    return std::string(plain_.substr(from, list_.tokens[end - 1].end() - from));
-  }
-  void replace(std::size_t begin, std::size_t end, std::string text = {}) {
-    end = std::min(end, list_.size());
-    if (begin < end)
-      found_.edits.push_back(
-          {list_.tokens[begin].at, list_.tokens[end - 1].end(), std::move(text)});
-  }
-
   void skip() {
     while (at_ < list_.size() && !is(at_, ";") && !is(at_, "{"))
       at_ = is(at_, "(") || is(at_, "[") ? behind(at_) : at_ + 1;
@@ -220,11 +195,6 @@ class WgslParser {
     skip();
     found_.globals.push_back(std::move(made));
   }
-
-  const TokenList& list_;
-  std::string_view plain_;
-  std::size_t at_ = 0;
-  Declarations found_;
 };
 
 }  // namespace
