@@ -8,6 +8,7 @@
 #include "farm/grid.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/formula.hpp"
+#include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -41,10 +42,11 @@ auto for_each_highlight(Change change) {
 }
 
 AxisValue parse_model(const std::string& text, const fs::path&) {
-  const auto model = find_model(text);
-  if (!model) unknown("model", text, model_names(), join(model_names()));
-  return {text, std::string(info(*model).title), text,
-          for_each_highlight([m = *model](Highlight& h) { h.model = m; })};
+  Highlight of_model;
+  if (!set_model(of_model, text))
+    unknown("model", text, settable_models(), join(settable_models()));
+  return {text, text == kGgx ? "GGX" : std::string(info(of_model.model).title), text,
+          for_each_highlight([text](Highlight& h) { set_model(h, text); })};
 }
 
 LobeId lobe_of(const std::string& text) {
@@ -93,6 +95,51 @@ AxisValue parse_exponent(const std::string& text, const fs::path&) {
                                          kMinExponent, kMaxExponent));
   return {text, fmt::format("n = {}", exponent), "n" + file_token(fmt::format("{}", exponent)),
           for_each_highlight([exponent](Highlight& h) { h.exponent = exponent; })};
+}
+
+AxisValue parse_roughness(const std::string& text, const fs::path&) {
+  double roughness = 0;
+  if (!parse_number(text, roughness) || roughness < kLeastRoughness || roughness > 1)
+    throw std::runtime_error(
+        fmt::format("roughness '{}'; allowed: {} to 1", printable(text), kLeastRoughness));
+  return {
+      text, fmt::format("roughness {}", roughness), "r" + file_token(fmt::format("{}", roughness)),
+      for_each_highlight([e = exponent_of_roughness(roughness)](Highlight& h) { h.exponent = e; })};
+}
+
+/// Turns a light about the camera's target until the angle there between the light and the eye is `degrees`, on the side
+/// where the light is; from the eye's own direction to the upper right.
+void turn_light(Scene& scene, double degrees) {
+  std::vector<Light*> lights;
+  for (Light& light : scene.lights)
+    if (!is_environment(light)) lights.push_back(&light);
+  const auto lamp = lights.size() == 1 ? find_lamp(*lights[0]) : std::nullopt;
+  if (!lamp)
+    throw std::runtime_error(
+        "the axis 'angle' turns the one directional, point or spot light of a scene, and this scene has others");
+  const Vec3 target = scene.camera.target, eye = normalize(scene.camera.origin - target);
+  const Vec3 from = lamp->is_distant ? -lamp->direction : lamp->position - target;
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  Vec3 aside = from - dot(from, eye) * eye;
+  if (length(aside) < 1e-9 * length(from)) aside = frame.right + frame.up;
+  const double angle = degrees * kPi / 180;
+  const Vec3 to_light = std::cos(angle) * eye + std::sin(angle) * normalize(aside);
+  Lamp turned = *lamp;
+  if (lamp->is_distant) {
+    turned.direction = -to_light;
+  } else {
+    turned.position = target + length(from) * to_light;
+    if (lamp->has_normal()) turned.normal = -to_light;
+  }
+  *lights[0] = light_of(turned);
+}
+
+AxisValue parse_angle(const std::string& text, const fs::path&) {
+  double degrees = 0;
+  if (!parse_number(text, degrees) || degrees < 0 || degrees > 180)
+    throw std::runtime_error(fmt::format("angle '{}'; allowed: 0 to 180 degrees", printable(text)));
+  return {text, fmt::format("{}°", degrees), "a" + file_token(fmt::format("{}", degrees)),
+          [degrees](Scene& scene) { turn_light(scene, degrees); }};
 }
 
 Scene scene_of_file(const std::string& text, const fs::path& directory) {
@@ -174,7 +221,9 @@ constexpr AxisKind kAxisKinds[] = {
     {"normalisation", "normalisations, or LOBE:NORMALISATION such as cs16:paper",
      parse_normalisation},
     {"exponent", "numbers", parse_exponent},
+    {"roughness", "numbers, of GGX", parse_roughness},
     {"light", "scene files whose lights are taken", parse_light},
+    {"angle", "degrees, of the light from the eye", parse_angle},
     {"samples", "whole numbers, of rays a pixel", parse_samples},
     {"size", "256 or 320x240, in pixels", parse_size},
     {"engine", "names of engines", parse_engine},

@@ -24,9 +24,9 @@ records::Model model_record(ModelId id) {
   record.has_shadowing = m.has_shadowing;
   record.normalised = name(m.normalised);
   record.integral = m.integral;
-  record.coefficient = {exact_formula(id), std::string(formulas(id).exact_cosine),
-                        std::string(formulas(id).paper_cosine),
-                        std::string(formulas(id).paper_cs16)};
+  record.normalisation_constant = {exact_formula(id), std::string(formulas(id).exact_cosine),
+                                   std::string(formulas(id).paper_cosine),
+                                   std::string(formulas(id).paper_cs16)};
   record.operations = operations_record(operations(id));
   record.source = m.source;
   return record;
@@ -73,6 +73,7 @@ records::CatalogueHighlight catalogue_highlight(const Highlight& h) {
   return {std::string(info(h.model).name),
           std::string(info(h.lobe).name),
           std::string(name(h.normalisation)),
+          normalisation_constant(h),
           radiance_coefficient(h),
           directional_albedo(h, 0),
           albedo_record(largest_albedo(h)),
@@ -204,7 +205,8 @@ records::HighlightTable highlight_table(ModelId model, LobeId lobe,
 }  // namespace
 
 records::Operations operations_record(const OperationCount& c) {
-  return {c.multiply, c.add, c.divide, c.root, c.transcendental, c.compare};
+  return {c.multiply_add, c.multiply,       c.add,     c.divide,
+          c.root,         c.transcendental, c.compare, price(c)};
 }
 
 std::string_view angle_name(LobeAngle angle) {

@@ -209,7 +209,7 @@ std::string allowed_lobes(bool or_a_formula) {
 }
 
 const ModelInfo& info(ModelId id) { return kModelInfos.at(id.index); }
-CoefficientFormulas formulas(ModelId id) {
+ConstantFormulas formulas(ModelId id) {
   const CoefficientTexts& texts = kModelTexts.at(id.index);
   return {for_people(texts.exact_cosine), for_people(texts.paper_cosine),
           for_people(texts.paper_cs16)};
@@ -239,6 +239,23 @@ std::string_view name(NormalisedQuantity normalised) {
 std::optional<ModelId> find_model(std::string_view name) {
   return find_id<ModelId>(kModelNames, name);
 }
+std::span<const std::string_view> settable_models() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all(model_names().begin(), model_names().end());
+    all.push_back(kGgx);
+    return all;
+  }();
+  return names;
+}
+
+bool set_model(Highlight& highlight, std::string_view name) {
+  const auto model = find_model(name == kGgx ? "microfacet_smith" : name);
+  if (!model) return false;
+  highlight.model = *model;
+  if (name == kGgx) highlight.lobe = *find_lobe(kGgx);
+  return true;
+}
+
 std::optional<LobeId> find_lobe(std::string_view name) { return lobe_table().find(name); }
 
 LobeId formula_lobe(std::string_view formula) {
@@ -289,6 +306,10 @@ double radiance_coefficient(const Highlight& highlight) {
   throw Error(ExitCode::kInput, "the paper gives no coefficient for the lobe '" +
                                     std::string(info(highlight.lobe).name) +
                                     "'; use the normalisation 'exact'");
+}
+
+double normalisation_constant(const Highlight& highlight) {
+  return radiance_coefficient(highlight) / kModelUses.at(highlight.model.index).share;
 }
 
 bool has_paper_coefficient(const LobeId& lobe) {

@@ -2,6 +2,7 @@
 // renderer/lobes and renderer/models through this file.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -48,7 +49,7 @@ enum class LobeAngle : std::uint8_t {
   kHalfVector,  ///< between the normal and the half vector (Blinn family)
 };
 
-/// The integral that the exact coefficient makes 1, by model (docs/conventions.md).
+/// The integral that the exact normalisation constant makes 1, by model (docs/conventions.md).
 enum class NormalisedQuantity : std::uint8_t {
   kRadiance,          ///< the energy reflected at normal incidence, over all directions
   kNormals,           ///< the integral of a distribution D of normals over their hemisphere
@@ -69,14 +70,14 @@ struct ModelInfo {
   LobeAngle angle;
   bool applies_cosine;  ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
   NormalisedQuantity normalised;
-  std::string_view integral;  ///< the exact coefficient makes it 1
+  std::string_view integral;  ///< the exact normalisation constant makes it 1
   std::string_view source;
   /// Smith's shadowing and masking takes the place of the implicit geometry (N.L)(N.V), with GGX's alpha.
   bool has_shadowing = false;
 };
 
-/// Coefficients as formulas of n, "(n + 1) / (2 pi)".
-struct CoefficientFormulas {
+/// Normalisation constants as formulas of n, "(n + 1) / (2 pi)".
+struct ConstantFormulas {
   std::string exact_cosine;  ///< from the integral, for the cosine lobe
   std::string paper_cosine;  ///< as the paper prints it
   std::string paper_cs16;    ///< as the paper prints it
@@ -104,8 +105,8 @@ std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
 std::string allowed_lobes(bool or_a_formula = false);
 
 const ModelInfo& info(ModelId id);
-CoefficientFormulas formulas(ModelId id);
-/// The exact coefficient from the moments M_j, the integrals of lobe s^j: "1/(2 pi (M0 - M1)), s = 0 to 1".
+ConstantFormulas formulas(ModelId id);
+/// The exact normalisation constant from the moments M_j, the integrals of lobe s^j: "1/(2 pi (M0 - M1)), s = 0 to 1".
 std::string exact_formula(ModelId id);
 const LobeInfo& info(const LobeId& id);
 /// The lobe's name with '_' for '.', and a part that differs for each formula: for names in code and of files.
@@ -118,6 +119,12 @@ std::string_view name(Normalisation normalisation);
 std::string_view name(NormalisedQuantity normalised);
 
 std::optional<ModelId> find_model(std::string_view name);
+/// GGX is the model microfacet_smith with the lobe ggx, and has a name of its own beside the models'.
+inline constexpr std::string_view kGgx = "ggx";
+/// Sets the model by its name; with "ggx" the lobe too. False if there is no such model.
+bool set_model(Highlight& highlight, std::string_view name);
+/// All names that set_model() takes.
+std::span<const std::string_view> settable_models();
 std::optional<LobeId> find_lobe(std::string_view name);
 /// The lobe with this formula. Throws FormulaError, which is one line.
 LobeId formula_lobe(std::string_view formula);
@@ -125,10 +132,12 @@ LobeId formula_lobe(std::string_view formula);
 std::string why_not_a_lobe(const Highlight& highlight);
 std::optional<Normalisation> find_normalisation(std::string_view name);
 
-/// The factor of the lobe (and N.L, where the model applies it) in radiance per unit irradiance. For the microfacet
-/// models it is a quarter of the coefficient of D: f_r = D F / 4. Throws Error(kInput) if the paper has none for the lobe,
-/// and if the formula is no lobe.
+/// The coefficient: the factor of the lobe (and N.L, where the model applies it) in radiance per unit irradiance. Throws
+/// Error(kInput) if the paper has none for the lobe, and if the formula is no lobe.
 double radiance_coefficient(const Highlight& highlight);
+/// The factor of the lobe in the integral that the model makes 1. For a distribution D of normals it is four times the
+/// coefficient, because f_r = D F / 4; for the other models it is the coefficient. Throws as radiance_coefficient().
+double normalisation_constant(const Highlight& highlight);
 
 /// Whether the paper prints a coefficient for the lobe: only for cosine and cs16.
 bool has_paper_coefficient(const LobeId& lobe);
@@ -159,6 +168,15 @@ Float32Error lobe_float32_error(const LobeId& lobe, double exponent);
 
 /// GGX's alpha squared for an exponent: the width at which both have the same peak as a heightfield's distribution.
 constexpr double alpha_squared(double exponent) { return 2 / (exponent + 2); }
+/// The exponent for GGX's alpha. Roughness is the root of alpha, as in Blender, glTF and Unreal.
+constexpr double exponent_of_alpha(double alpha) {
+  return std::clamp(2 / (alpha * alpha) - 2, kMinExponent, kMaxExponent);
+}
+constexpr double exponent_of_roughness(double roughness) {
+  return exponent_of_alpha(roughness * roughness);
+}
+/// Of GGX in a scene; the exponents are those of kMinExponent to kMaxExponent.
+inline constexpr double kLeastRoughness = 0.012, kLeastAlpha = 0.000144;
 /// The largest factor that shadowing puts on a lobe times N.L; at grazing angles. 1 for a model without.
 double largest_shadowing(ModelId model, double exponent);
 

@@ -10,6 +10,18 @@ namespace {
 
 thread_local OperationCount g_count;
 
+/// From `lobelia cost --level picture reference_scenes/scenes/head_on.xml` with AVX-512, where a multiplication is some
+/// 0.015 ms a megapixel (docs/cost.md). Exponentials and logarithms in float64 take more terms on half as many lanes; the
+/// rest of a kernel hides part of the simple operations. float16 is emulated, one half float after another.
+struct Prices {
+  double simple, divide_or_root, transcendental;
+};
+constexpr Prices kPrices[] = {{1, 6, 28}, {1, 6, 28}, {1.5, 10, 70}, {170, 170, 2700}};
+static_assert(std::size(kPrices) == kPrecisionCount);
+/// Costs of a formula, evaluated node by node and one value at a time: 27 ns for c^n, 53 ns for
+/// max(0, 1 - n s / 16)^16, 70 ns for exp(-n x^2 / 2), with 0.015 ns a multiplication.
+constexpr double kOfANode = 250, kOfItsTranscendentals = 1000;
+
 /// A number that counts its operations.
 struct Counted {
   using Scalar = double;
@@ -35,8 +47,12 @@ struct Counted {
     ++g_count.root, ++g_count.transcendental, g_count.multiply += 3;
     return half_square_of_angle(s.x);
   }
-  friend Counted multiply_add(Counted a, Counted b, Counted c) { return a * b + c; }
-  friend Counted one_minus_product(double q, Counted s) { return Counted(1) - Counted(q) * s; }
+  friend Counted multiply_add(Counted a, Counted b, Counted c) {
+    return ++g_count.multiply_add, Counted(a.x * b.x + c.x);
+  }
+  friend Counted one_minus_product(double q, Counted s) {
+    return multiply_add(Counted(-q), s, Counted(1));
+  }
 };
 
 struct CountedVec3 {
@@ -166,6 +182,19 @@ OperationCount operations(ModelId model) {
     };
   });
   return kCounts.at(model.index)();
+}
+
+double price(const OperationCount& count, Precision precision) {
+  const Prices& p = kPrices[std::size_t(precision)];
+  return p.simple * (count.multiply_add + count.multiply + count.add + count.compare) +
+         p.divide_or_root * (count.divide + count.root) + p.transcendental * count.transcendental;
+}
+
+double price(const LobeId& lobe, Precision precision) {
+  const OperationCount count = operations(lobe);
+  return lobe.formula ? kOfANode * double(lobe.formula->nodes().size()) +
+                            kOfItsTranscendentals * count.transcendental
+                      : price(count, precision);
 }
 
 }  // namespace lobelia

@@ -17,6 +17,7 @@ void define_cost_tables(Tables& tables) {
   tables.define<CostFront>("The variants that no other beats in both time and error.", [](auto& t) {
     t.key("variants", "from the fastest on").renamed("ways");
     t.key("dominatedBy", "the fastest of the front that is as accurate");
+    t.key("answers", "which variant to use for which error, where that is a share of the peak");
     t.key("chart").plain_name();
   });
   tables.define<CostTable>("Variants of one thing, measured in one run.", [](auto& t) {

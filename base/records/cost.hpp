@@ -37,6 +37,7 @@ struct CostVariant {
 struct CostFront {
   std::vector<std::string> variants;
   Named<std::string> dominated_by;
+  std::optional<std::vector<std::string>> answers;
   std::vector<std::string> in_words;
   std::string chart;
 };

@@ -12,11 +12,6 @@ void define_lobe_search_tables(Tables& tables) {
         t.key("error", "the lobe's minus that of cos^n");
         t.key("weight", "they sum to 1").within(0, 1);
       });
-  tables.define<LobeOperations>("From s to the value, without what depends on n alone.",
-                                [](auto& t) {
-                                  t.all().at_least(0);
-                                  t.key("others", "maxima and conversions");
-                                });
   tables.define<LobeSearchErrors>(
       "Errors against cos^n, of the peak, the largest over the exponents that were looked at.",
       [](auto& t) {
@@ -37,9 +32,12 @@ void define_lobe_search_tables(Tables& tables) {
   tables.define<SearchedLobe>("The best lobe of a shape.", [](auto& t) {
     t.key("name", "cs16 and the like are the paper's lobes, schlick is Schlick's");
     t.key("formula", "of t = n s and n");
+    t.key("code",
+          "a function of s and n in GLSL; empty for a lobe of the catalogue, which can be exported")
+        .if_any();
     t.key("price", "operations, a division counted as six").within(0, 1e6);
     t.key("byExponent", "degree of the coefficients in 1/n");
-    t.key("coefficients", "of t^j / n^r, j = 1, 2, ... first");
+    t.key("coefficients", "of t^j / n^r, j = 1, 2, ... first; with a free peak from j = 0");
     t.key("bound", "of the error, proved for all s and n; null: not proved").at_least(0);
     t.key("lowerBound", "no lobe of this shape has a smaller error").at_least(0);
     t.key("isOnFront", "nearer by 0.5 % than all that are cheaper");
@@ -50,10 +48,12 @@ void define_lobe_search_tables(Tables& tables) {
         t.kind("lobe-search");
         t.key("leastExponent").at_least(1);
         t.key("mostExponent", "null: to infinity");
-        t.key("family", "clamped polynomials, reciprocals, bits").one_of(kSearchFamilies);
+        t.key("family", "clamped polynomials, reciprocals, bits; all three with a free peak")
+            .one_of(kSearchFamilies);
         t.key("metric", "that chooses").one_of(kSearchMetrics);
         t.key("coefficients", "constant or by-n");
         t.key("chosen", "the lobe that was asked for").if_any();
+        t.key("answers", "which lobe to use for which error").if_any();
         t.key("lobes", "cheapest first");
         t.key("notProved",
               "shapes whose best lobe could not be proved, or is none: not among the lobes")

@@ -1,21 +1,18 @@
 // The cheapest lobes for an accuracy.
 #pragma once
 
+#include "base/records/models.hpp"
 #include "base/records/struct_type.hpp"
 
 namespace lobelia::records {
 
 inline constexpr std::string_view kSearchMetrics[] = {"max", "rms", "energy", "de2000"};
 
-inline constexpr std::string_view kSearchFamilies[] = {"all", "pk", "rk", "bk"};
+inline constexpr std::string_view kSearchFamilies[] = {"all", "pk", "rk", "bk", "free"};
 
 /// A point where the best lobe has its largest error.
 struct LobeTouch {
   double ns = 0, per_exponent = 0, error = 0, weight = 0;
-};
-
-struct LobeOperations {
-  int multiply_adds = 0, multiplies = 0, others = 0, divisions = 0;
 };
 
 struct LobeSearchErrors {
@@ -33,7 +30,8 @@ struct LobeErrorAt {
 
 struct SearchedLobe {
   std::string name, formula;
-  LobeOperations operations;
+  std::string code;
+  Operations operations;
   int price = 0, degree = 0, squarings = 0, by_exponent = 0;
   std::vector<double> coefficients;
   std::optional<double> bound, lower_bound;
@@ -50,6 +48,7 @@ struct LobeSearch {
   std::optional<double> most_exponent;
   std::string family, metric, precision, coefficients;
   std::string chosen;
+  std::vector<std::string> answers;
   std::vector<SearchedLobe> lobes;
   std::vector<std::string> not_proved;
 };

@@ -3,18 +3,22 @@
 namespace lobelia::records {
 
 void define_model_tables(Tables& tables) {
-  tables.define<Formulas>("Coefficients of a model.", [](auto& t) {
+  tables.define<Formulas>("Normalisation constants of a model.", [](auto& t) {
     t.key("exact", "integrated, in double");
     t.key("exactCosine", "closed form with the lobe cosine");
     t.key("paperCosine", "as the paper prints it");
     t.key("paperCs16", "as the paper prints it");
   });
   tables.define<Operations>(
-      "Operations per point. What depends on the exponent alone is computed once.");
+      "Operations per point. What depends on the exponent alone is computed once.", [](auto& t) {
+        t.all().at_least(0);
+        t.key("compare", "comparisons, maxima and conversions");
+        t.key("price", "of all, in multiplications of float32: a division counts as six");
+      });
   tables.define<Model>("A reflection model.", [](auto& t) {
     t.key("angle", "what its lobe sees");
     t.key("hasShadowing", "Smith's, in place of the implicit geometry (N.L)(N.V)");
-    t.key("normalised", "what its coefficient makes 1");
+    t.key("normalised", "what its normalisation constant makes 1");
   });
   tables.define<Lobe>("A lobe, measured at one exponent.", [](auto& t) {
     t.key("moments", "M_j, the integral of the lobe times s^j for s = 0 to S");
@@ -31,6 +35,8 @@ void define_model_tables(Tables& tables) {
     t.key("aboveOneFromDegrees", "null if it stays within 1").or_null().unit("degrees");
   });
   tables.define<CatalogueHighlight>("A model with a lobe and a normalisation.", [](auto& t) {
+    t.key("normalisationConstant", "makes the model's integral 1");
+    t.key("coefficient", "the factor of the lobe in the radiance");
     t.key("albedo", "towards the eye");
     t.key("albedoOfLight", "of a beam");
   });

@@ -10,14 +10,16 @@ struct Formulas {
 };
 
 struct Operations {
-  int multiply = 0, add = 0, divide = 0, root = 0, transcendental = 0, compare = 0;
+  int multiply_add = 0, multiply = 0, add = 0, divide = 0, root = 0, transcendental = 0,
+      compare = 0;
+  double price = 0;
 };
 
 struct Model {
   std::string name, title, angle;
   bool applies_cosine = false, has_shadowing = false;
   std::string normalised, integral;
-  Formulas coefficient;
+  Formulas normalisation_constant;
   Operations operations;
   std::string source;
 };
@@ -47,7 +49,7 @@ struct AlbedoPeak {
 
 struct CatalogueHighlight {
   std::string model, lobe, normalisation;
-  double coefficient = 0, energy_at_normal_incidence = 0;
+  double normalisation_constant = 0, coefficient = 0, energy_at_normal_incidence = 0;
   AlbedoPeak albedo, albedo_of_light;
   double reciprocity_gap = 0;
 };
@@ -69,7 +71,7 @@ struct TableErrors {
 struct ModelTable {
   std::string name, title, angle;
   bool applies_cosine = false, has_shadowing = false;
-  std::string normalised, coefficient;
+  std::string normalised, normalisation_constant;
   Operations operations;
   double s_max = 0;
   std::vector<double> weights;

@@ -4,7 +4,7 @@ namespace lobelia::records {
 namespace {
 
 constexpr std::string_view kAccuracyUnits[] = {"ofPeak", "de2000"};
-constexpr std::string_view kBases[] = {"bound", "look"};
+constexpr std::string_view kBases[] = {"bound", "trial"};
 constexpr std::string_view kShadings[] = {"native", "expressed", "analytic", "outside"};
 
 }  // namespace
@@ -35,6 +35,11 @@ void define_render_tables(Tables& tables) {
   tables.define<AccuracyOperations>("Weighted operations per point.", [](auto& t) {
     t.key("ownInFloat64", "of the scene's own lobe");
   });
+  tables.define<AccuracySeconds>("For one value of the lobe, by SIMD on one thread, in this run.",
+                                 [](auto& t) {
+                                   t.all().at_least(0).unit("seconds");
+                                   t.key("ownInFloat64", "of the scene's own lobe");
+                                 });
   tables.define<AccuracyReached>("What a check of the finished picture found.", [](auto& t) {
     t.key("value", "0 for a black picture").may_be_nonfinite();
     t.key("against", "the ground truth");
@@ -43,6 +48,7 @@ void define_render_tables(Tables& tables) {
   tables.define<Accuracy>("A picture by the accuracy that was asked for; see docs/cost.md.",
                           [](auto& t) {
                             t.key("unit").one_of(kAccuracyUnits);
+                            t.key("valueSeconds", "null where the highlights keep lobes that differ");
                             t.key("basis").one_of(kBases);
                             t.key("predicted", "will not be exceeded");
                             t.key("reached", "missing with --accuracy-check none");

@@ -60,6 +60,10 @@ struct AccuracyOperations {
   double chosen = 0, own_in_float64 = 0;
 };
 
+struct AccuracySeconds {
+  double chosen = 0, own_in_float64 = 0;
+};
+
 struct AccuracyReached {
   double value = 0;
   bool held = false;
@@ -73,6 +77,7 @@ struct Accuracy {
   AccuracyChoice chose;
   std::string why;
   AccuracyOperations operations;
+  std::optional<AccuracySeconds> value_seconds;
   std::string basis;
   double predicted = 0;
   std::optional<AccuracyReached> reached;

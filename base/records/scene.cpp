@@ -28,10 +28,14 @@ void define_scene_tables(Tables& tables) {
     t.key("filterRadius").unit("pixels");
   });
   tables.define<SceneLight>("A light. It has the places and directions of its type.", [](auto& t) {
-    t.key("type", "as in a scene file: point, directional, sphere, rectangle, constant, envmap");
+    t.key("type",
+          "as in a scene file: point, spot, directional, sphere, rectangle, constant, envmap");
     t.key("kind").one_of(kLightKinds);
     t.key("direction", "where the light travels; unit vector");
     t.key("normal", "of a point of a surface: the intensity falls with the cosine to it");
+    t.key("cutoffDegrees", "from direction to where a spot ends");
+    t.key("beamDegrees",
+          "to where it begins to fall: by t^2 (3 - 2 t), t from 0 to 1 by the cosine in between");
     t.key("halfU", "from the centre to a side");
     t.key("halfV", "to the next side; it shines to the side of halfU x halfV");
     t.key("filename", "a picture by latitude and longitude, which strength scales").if_any();

@@ -26,7 +26,7 @@ struct SceneFilm {
 struct SceneLight {
   std::string type, kind;
   std::optional<Triple> position, direction, normal, center, half_u, half_v;
-  std::optional<double> radius;
+  std::optional<double> radius, cutoff_degrees, beam_degrees;
   std::string filename;
   Triple strength{};
   std::string unit;

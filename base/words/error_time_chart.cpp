@@ -27,15 +27,18 @@ bool can_be_drawn(const TimedError& point) {
          point.error <= kLargestDrawn;
 }
 
-/// A whole number of decades around all values above 0.
+/// Somewhat more than all values above 0, and a power of ten among them, so that the axis has a label.
 void widen(ChartAxis& axis, const std::vector<double>& values) {
   double least = kInfinity, most = 0;
   for (const double value : values)
     if (value >= kSmallestDrawn) least = std::min(least, value), most = std::max(most, value);
   if (most == 0) least = most = 1;
   axis.logarithmic = true;
-  axis.from = std::pow(10, std::floor(std::log10(least * 0.9)));
-  axis.to = std::pow(10, std::ceil(std::log10(most * 1.1)));
+  constexpr double kRoom = 1.4;
+  axis.from = least / kRoom;
+  axis.to = most * kRoom;
+  const double above = std::pow(10, std::ceil(std::log10(axis.from)));
+  if (above > axis.to) axis.to = above;
 }
 
 void add(ChartSeries& series, const TimedError& point, double x, double y, double unit) {
@@ -80,10 +83,7 @@ Chart error_time_chart(const ErrorTimes& times) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = costs[i], y = std::max(errors[i], chart.y.from);
     add(points[i].on_front ? on : off, points[i], x, y, unit.seconds);
-    if (!points[i].on_front) {
-      off.point_names.push_back(points[i].off_front_name);
-      continue;
-    }
+    if (!points[i].on_front) continue;
     on.point_names.push_back(points[i].name);
     // A step: between two points the faster one's error applies.
     if (!front.x.empty()) front.x.push_back(x), front.y.push_back(front.y.back());
@@ -92,6 +92,29 @@ Chart error_time_chart(const ErrorTimes& times) {
   }
   chart.series = {off, front, on};  // the front is drawn over dominated points
   return chart;
+}
+
+std::vector<std::string> answers(const ErrorTimes& times) {
+  constexpr int kLeastPower = -12;
+  std::vector<std::string> sentences;
+  const TimedError* last = nullptr;
+  for (int power = -1; power >= kLeastPower; --power) {
+    const double most = std::pow(10, power);
+    const TimedError* cheapest = nullptr;
+    for (const TimedError& point : times.points)
+      if (can_be_drawn(point) && point.error <= most &&
+          (!cheapest ||
+           std::pair(point.cost, point.error) < std::pair(cheapest->cost, cheapest->error)))
+        cheapest = &point;
+    if (!cheapest) break;
+    if (cheapest == last) sentences.pop_back();
+    last = cheapest;
+    const std::string off = power >= -6 ? percent_text(most) : power_of_ten_text(power);
+    sentences.push_back(fmt::format(
+        "You may be off by {}: use {}, {}.", off, cheapest->name,
+        quantity_text(cheapest->cost, times.cost_unit.empty() ? "s" : times.cost_unit)));
+  }
+  return sentences;
 }
 
 std::string short_time_text(double seconds) {

@@ -16,8 +16,7 @@ struct TimedError {
   double error = 0;        ///< not negative
   double error_error = 0;  ///< half length of its error bar
   bool on_front = false;
-  std::string key = {};             ///< for ChartSeries::point_keys
-  std::string off_front_name = {};  ///< drawn where the point is not on the front; may be empty
+  std::string key = {};  ///< for ChartSeries::point_keys
 };
 
 struct ErrorTimes {
@@ -29,8 +28,12 @@ struct ErrorTimes {
   std::vector<TimedError> points;  ///< points that are not finite are left out
 };
 
-/// Both axes are logarithmic, over whole decades. Points without any error lie at its start, which is then labelled 0.
+/// Both axes are logarithmic and end at the data. Points without any error lie at the start, which is then labelled 0.
 Chart error_time_chart(const ErrorTimes& times);
+
+/// The cheapest point for each power of ten of an error that is a share: "You may be off by 0.1 %: use pk3.2, 0.11 ns."
+/// One sentence for each point, with the smallest of its powers.
+std::vector<std::string> answers(const ErrorTimes& times);
 
 /// "3.14 ns", "0.42 ms", "1.70 s": three digits.
 std::string short_time_text(double seconds);

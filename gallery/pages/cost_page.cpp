@@ -125,8 +125,7 @@ Chart chart_of(const CostTable& table, const CostError& error, const std::string
                                         is_timed(table) ? ", " + spread_text(variant) : "",
                                         short_title(table, error), error_text(value)),
                             cost, spread * cost, value, error_spread_of(variant, error),
-                            is_on_front(table, error, variant), variant.name,
-                            named ? name : place});
+                            is_on_front(table, error, variant), variant.name});
   }
   Chart chart = error_time_chart(times);
   chart.width = narrow ? kNarrowWidth : kChartWidth;
@@ -155,7 +154,7 @@ std::vector<const CostVariant*> front_of(const CostTable& table, const CostError
   return front;
 }
 
-/// Which variant to take, by the table's first error.
+/// The ends of the front, by the table's first error.
 std::string finding_of(const CostTable& table) {
   if (table.errors.empty() || table.variants.empty()) return "";
   const CostError& error = table.errors.front();
@@ -182,6 +181,15 @@ std::string finding_of(const CostTable& table) {
                      is_timed(table) ? "fastest" : "cheapest", name(cheap), told(cheap),
                      name(exact), told(exact), number_text(times, 2),
                      is_timed(table) ? "time" : cost_unit(table));
+}
+
+/// Which variant to take, by the table's first error: for each error that one may have, or where there is no front.
+std::vector<std::string> findings_of(const CostTable& table) {
+  const records::CostFront* front =
+      table.errors.empty() ? nullptr : records::find(table.fronts, table.errors.front().id);
+  if (front && front->answers && !front->answers->empty()) return *front->answers;
+  const std::string finding = finding_of(table);
+  return finding.empty() ? std::vector<std::string>() : std::vector{finding};
 }
 
 void write_sentences(Html& html, const std::vector<std::string>& sentences) {
@@ -277,8 +285,8 @@ void write_words(Html& html, const CostTable& table) {
 void write_table(Html& html, const CostTable& table, std::size_t number) {
   const Tag section(html, "section", {{"id", fmt::format("table-{}", number)}});
   html.element("h2", math_text(table.title));
-  if (const std::string finding = finding_of(table); !finding.empty())
-    html.element("p", {{"class", "finding"}}, finding);
+  for (const std::string& finding : findings_of(table))
+    html.element("p", {{"class", "finding"}}, spoken_name(finding));
   {
     const Tag pair(html, "div", {{"class", "cost-pair"}});
     {

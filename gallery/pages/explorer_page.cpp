@@ -188,7 +188,7 @@ void write_highlights(Html& html, const HighlightTables& tables, std::size_t at)
 
 records::ExplorerPage page_data(HighlightTables tables) {
   for (records::ModelTable& model : tables.models)
-    model.coefficient = math_text(model.coefficient), model.angle = math_text(model.angle);
+    model.normalisation_constant = math_text(model.normalisation_constant), model.angle = math_text(model.angle);
   for (LobeTable& lobe : tables.lobes) lobe.formula = math_text(lobe.formula);
   return {std::move(tables),
           embedded::shader_search.empty() ? "" : packed_bytes(embedded::shader_search)};

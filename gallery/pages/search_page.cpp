@@ -36,7 +36,8 @@ std::string range_of(const LobeSearch& found) {
 std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
                      const std::string& id, const std::string& title, bool narrow) {
   ErrorTimes times{id, title, "value", "operations", "largest error, of the peak", {}};
-  double nearest = std::numeric_limits<double>::infinity(), dearest = 1;
+  double nearest = std::numeric_limits<double>::infinity(), dearest = 1,
+         cheapest = found.lobes.front().price;
   std::map<int, double> nearest_of_price;
   for (std::size_t i = 0; i < found.lobes.size(); ++i)
     if (const SearchedLobe& lobe = found.lobes[i]; !is_known(lobe)) {
@@ -61,11 +62,10 @@ std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
     // Lobes are cheapest first; of one price the nearest is on the front.
     const bool on_front = errors[i] <= nearest_of_price[lobe.price] && errors[i] < nearest;
     if (on_front) nearest = errors[i];
-    times.points.push_back(
-        {lobe.name, label, price, 0, errors[i], 0, on_front, lobe.name, lobe.name});
+    times.points.push_back({lobe.name, label, price, 0, errors[i], 0, on_front, lobe.name});
   }
   Chart chart = error_time_chart(times);
-  chart.x = {"operations, a division counted as six", 0, dearest + 1};
+  chart.x = {"operations, a division counted as six", cheapest - 1, dearest + 1};
   chart.width = narrow ? 380 : 800;
   chart.series.push_back(std::move(known));
   for (const double error : chart.series.back().y) chart.y.to = std::max(chart.y.to, error);
@@ -135,19 +135,21 @@ void write_lobes(Html& html, const LobeSearch& found, const std::filesystem::pat
   }
 }
 
-/// The nearest lobe, beside the nearest of those that are known.
+/// The nearest of the known lobes beside the nearest lobe at its price.
 std::string finding_of(const LobeSearch& found) {
   const SearchedLobe *best = nullptr, *known = nullptr;
-  for (const SearchedLobe& lobe : found.lobes) {
-    const SearchedLobe*& place = is_known(lobe) ? known : best;
-    if (!place || lobe.errors.max < place->errors.max) place = &lobe;
-  }
-  if (!best) return "";
-  const auto told = [](const SearchedLobe& lobe) {
-    return fmt::format("“{}” takes {} operations and misses cosⁿ by {} of the peak at most",
-                       lobe.name, lobe.price, number_text(lobe.errors.max, 2));
-  };
-  return told(*best) + (known ? "; " + told(*known) : "") + ".";
+  for (const SearchedLobe& lobe : found.lobes)
+    if (is_known(lobe) && (!known || lobe.errors.max < known->errors.max)) known = &lobe;
+  for (const SearchedLobe& lobe : found.lobes)
+    if (known && !is_known(lobe) && lobe.price <= known->price &&
+        (!best || lobe.errors.max < best->errors.max))
+      best = &lobe;
+  if (!best || !(best->errors.max > 0)) return "";
+  return fmt::format(
+      "With {} operations “{}” misses cosⁿ by {} of the peak at most, and “{}” by {}: {} times "
+      "nearer.",
+      known->price, known->name, percent_text(known->errors.max), best->name,
+      percent_text(best->errors.max), number_text(known->errors.max / best->errors.max, 2));
 }
 
 void write(ViewPage& page, const LobeSearch& found, const RunFiles& run) {
@@ -161,6 +163,8 @@ void write(ViewPage& page, const LobeSearch& found, const RunFiles& run) {
           range_of(found)));
   {
     const Tag section(html, "section", {{"id", "table-0"}});
+    for (const std::string& answer : found.answers)
+      html.element("p", {{"class", "finding"}}, answer);
     if (const std::string finding = finding_of(found); !finding.empty())
       html.element("p", {{"class", "finding"}}, finding);
     const Tag pair(html, "div", {{"class", "cost-pair"}});

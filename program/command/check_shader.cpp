@@ -101,7 +101,9 @@ void add_highlight(const CheckShaderArguments& options, shader_check::Request& r
   highlight.normalisation =
       chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
   if (!options.model.empty()) {
-    highlight.model = chosen(options.model, "--model", model_names(), find_model);
+    const LobeId lobe = highlight.lobe;
+    set_chosen_model(highlight, options.model, "--model");
+    if (!options.lobe.empty()) highlight.lobe = lobe;
     radiance_coefficient(highlight);  // throws if the paper has none
     return;
   }
@@ -218,7 +220,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
   OptionGroup model(*command, "Model");
   model.add("--model", options->model, "",
             fmt::format("Model: {}; otherwise the one that explains the shader best",
-                        join(model_names())));
+                        join(settable_models())));
   model.add("--lobe", options->lobe, "",
             fmt::format("Lobe: {}; otherwise cosine, and without --model any", allowed_lobes()));
   model

@@ -22,9 +22,17 @@ void run_export(const ExportArguments& options) {
   ShaderExport request;
   request.language =
       chosen(options.language, "--language", shader_language_names(), find_shader_language);
-  for (const std::string& model : options.models)
-    request.models.push_back(chosen(model, "model", model_names(), find_model));
-  request.lobe = options.lobe.lobe().value();
+  Highlight highlight{{}, *find_lobe("cosine")};
+  for (const std::string& model : options.models) {
+    set_chosen_model(highlight, model, "model");
+    request.models.push_back(highlight.model);
+  }
+  if (const auto lobe = options.lobe.lobe())
+    highlight.lobe = *lobe;
+  else if (options.models.size() > 1 && highlight.lobe == *find_lobe(kGgx))
+    throw Error(ExitCode::kUsage, "{} has a lobe of its own; export it alone, or add --lobe {}",
+                kGgx, kGgx);
+  request.lobe = highlight.lobe;
   request.normalisation =
       chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
   request.exponent = options.exponent;
@@ -50,13 +58,13 @@ void add_export(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand("export", "Write models as shader functions");
   auto options = std::make_shared<ExportArguments>();
   OptionGroup group(*command);
-  group.add("MODEL", options->models, "", fmt::format("Models: {}", join(model_names())))
+  group.add("MODEL", options->models, "", fmt::format("Models: {}", join(settable_models())))
       ->required();
   group
       .add("--language", options->language, "",
            fmt::format("Language: {}", join(shader_language_names())))
       ->required();
-  options->lobe.add_to(group, "cosine");
+  options->lobe.add_to(group);
   group
       .add("--normalisation", options->normalisation, "",
            fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))

@@ -24,16 +24,16 @@ std::string range_of(const Parameter& p) {
 
 void print_catalogues(std::span<const LobeId> lobes) {
   fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", "model", "title", "angle", "N.L", "normalised",
-             "exact coefficient of any lobe, by its moments");
+             "exact normalisation constant of any lobe, by its moments");
   for (const ModelId id : all_models()) {
     const ModelInfo& m = info(id);
     fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", m.name, m.title, angle_name(m.angle),
                m.applies_cosine ? "yes" : "no", name(m.normalised), exact_formula(id));
   }
-  fmt::print("\n{:<26}{:<44}{:<44}{}\n", "coefficient", "cosine, exact", "cosine, paper",
+  fmt::print("\n{:<26}{:<44}{:<44}{}\n", "normalisation constant", "cosine, exact", "cosine, paper",
              "cs16, paper");
   for (const ModelId id : all_models()) {
-    const CoefficientFormulas f = formulas(id);
+    const ConstantFormulas f = formulas(id);
     fmt::print("{:<26}{:<44}{:<44}{}\n", info(id).name, f.exact_cosine, f.paper_cosine,
                f.paper_cs16);
   }
@@ -52,13 +52,14 @@ void print_catalogues(std::span<const LobeId> lobes) {
 }
 
 void print_operations(std::string_view name, const OperationCount& c) {
-  fmt::print("{:<26}{:>9}{:>6}{:>8}{:>6}{:>16}{:>9}\n", name, c.multiply, c.add, c.divide, c.root,
-             c.transcendental, c.compare);
+  fmt::print("{:<26}{:>13}{:>9}{:>5}{:>8}{:>6}{:>16}{:>9}{:>7}\n", name, c.multiply_add, c.multiply,
+             c.add, c.divide, c.root, c.transcendental, c.compare, price(c));
 }
 
 void print_costs(std::span<const LobeId> lobes) {
-  fmt::print("\n{:<26}{:>9}{:>6}{:>8}{:>6}{:>16}{:>9}\n", "operations a point", "multiply", "add",
-             "divide", "root", "transcendental", "compare");
+  fmt::print("\n{:<26}{:>13}{:>9}{:>5}{:>8}{:>6}{:>16}{:>9}{:>7}\n", "operations a point",
+             "multiply-add", "multiply", "add", "divide", "root", "transcendental", "compare",
+             "price");
   for (const LobeId& id : lobes) print_operations(info(id).name, operations(id));
   for (const ModelId id : all_models()) print_operations(info(id).name, operations(id));
 }
@@ -71,20 +72,23 @@ void print_measured(double exponent, std::span<const LobeId> lobes) {
     fmt::print("{:<20}{:>8.3f} deg{:>8.3f} deg{:>15.3g}{:>15.3g}\n", info(id).name,
                p.half_width / kDegree, p.support / kDegree, p.above_cosine, p.below_cosine);
   }
-  fmt::print("\n{:<26}{:<20}{:<8}{:>12}{:>9}{:>14}{:>17}{:>13}{:>13}\n", "model", "lobe", "norm.",
-             "coefficient", "energy", "seen at most", "lit at most, at", "above 1 from",
-             "reciprocity");
+  fmt::print("\n{:<26}{:<20}{:<8}{:>12}{:>12}{:>9}{:>14}{:>17}{:>13}{:>13}\n", "model", "lobe",
+             "norm.", "constant", "coefficient", "energy", "seen at most", "lit at most, at",
+             "above 1 from", "reciprocity");
   for (const Highlight& h : all_highlights(exponent, lobes)) {
     const AlbedoPeak lit = largest_albedo_of_light(h);
-    fmt::print("{:<26}{:<20}{:<8}{:>12.6g}{:>9.5f}{:>14.5f}{:>9.5g}{:>6.2f} d{:>13}{:>13}\n",
-               info(h.model).name, info(h.lobe).name, name(h.normalisation),
-               radiance_coefficient(h), directional_albedo(h, 0), largest_albedo(h).albedo,
-               lit.albedo, lit.incidence / kDegree,
-               lit.above_one_from ? fmt::format("{:.2f} d", *lit.above_one_from / kDegree) : "-",
-               reciprocity_gap(h) < 1e-9 ? "holds" : "fails");
+    fmt::print(
+        "{:<26}{:<20}{:<8}{:>12.6g}{:>12.6g}{:>9.5f}{:>14.5f}{:>9.5g}{:>6.2f} d{:>13}{:>13}\n",
+        info(h.model).name, info(h.lobe).name, name(h.normalisation), normalisation_constant(h),
+        radiance_coefficient(h), directional_albedo(h, 0), largest_albedo(h).albedo, lit.albedo,
+        lit.incidence / kDegree,
+        lit.above_one_from ? fmt::format("{:.2f} d", *lit.above_one_from / kDegree) : "-",
+        reciprocity_gap(h) < 1e-9 ? "holds" : "fails");
   }
   fmt::print(
-      "\nenergy: reflected at normal incidence; a microfacet distribution without masking loses some.\n"
+      "\nconstant: the normalisation constant, which makes the integral of the model 1. coefficient: the\n"
+      "factor of the lobe in the radiance, for a shader; a quarter of the constant of a distribution D.\n"
+      "energy: reflected at normal incidence; a microfacet distribution without masking loses some.\n"
       "seen: the albedo towards an eye under a uniform sky. lit: what leaves of a beam. Both the most\n"
       "over incidences up to 89.99 degrees; above 1 the model makes light. They are one where\n"
       "reciprocity holds.\n");

@@ -128,14 +128,23 @@ void require_lobe(const Highlight& highlight) {
     throw Error(ExitCode::kUsage, why);
 }
 
+void set_chosen_model(Highlight& highlight, const std::string& name, std::string_view option) {
+  highlight = chosen(name, option, settable_models(), [&](const std::string& model) {
+    Highlight with = highlight;
+    return set_model(with, model) ? std::optional(with) : std::nullopt;
+  });
+}
+
 void SceneOverrides::add_to(CLI::App& command) {
   OptionGroup group(command, "In place of what the scene says");
-  group.add("--model", model_, "", fmt::format("Model: {}", join(model_names())));
+  group.add("--model", model_, "", fmt::format("Model: {}", join(settable_models())));
   lobe_.add_to(group);
   group.add("--normalisation", normalisation_, "",
             fmt::format("Coefficient: {}", join(normalisation_names())));
   group.add("--exponent", exponent_, "",
             fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent));
+  group.add("--roughness", roughness_, "",
+            fmt::format("Roughness of GGX, {} to 1, in place of the exponent", kLeastRoughness));
   group.add("--width", width_, "", "Width of the picture in pixels");
   group.add("--height", height_, "", "Height of the picture in pixels");
   add_common(group, "--samples", samples_);
@@ -148,12 +157,16 @@ void SceneOverrides::apply(Scene& scene) const {
   std::vector<Highlight*> highlights{&unused};
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const highlight : highlights) {
-    if (model_) highlight->model = chosen(*model_, "--model", model_names(), find_model);
+    if (model_) set_chosen_model(*highlight, *model_, "--model");
     if (lobe) highlight->lobe = *lobe;
     if (normalisation_)
       highlight->normalisation =
           chosen(*normalisation_, "--normalisation", normalisation_names(), find_normalisation);
     replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight->exponent);
+    if (double roughness = 0; roughness_) {
+      replace(roughness_, "--roughness", kLeastRoughness, 1, roughness);
+      highlight->exponent = exponent_of_roughness(roughness);
+    }
     if (highlight != &unused) require_lobe(*highlight);
   }
   replace(width_, "--width", 1, kMaxImageSide, scene.film.width);

@@ -100,6 +100,9 @@ class LobeOption {
 /// Throws Error(kUsage) if the highlight's formula is no lobe at its exponent.
 void require_lobe(const Highlight& highlight);
 
+/// Sets the model, and with "ggx" the lobe. Throws Error(kUsage) for a name that is none.
+void set_chosen_model(Highlight& highlight, const std::string& name, std::string_view option);
+
 /// The options that change a scene, the same for every subcommand that takes one.
 class SceneOverrides {
  public:
@@ -113,7 +116,7 @@ class SceneOverrides {
  private:
   std::optional<std::string> model_, normalisation_;
   LobeOption lobe_;
-  std::optional<double> exponent_;
+  std::optional<double> exponent_, roughness_;
   std::optional<int> width_, height_, samples_;
   std::optional<std::uint64_t> seed_;
 };

@@ -19,6 +19,7 @@
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "studies/accuracy/accuracy.hpp"
+#include "studies/cost/lobe_variants.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -93,8 +94,16 @@ ExitCode report_accuracy(const Scene& scene, const accuracy::Choice& choice, con
   std::optional<accuracy::Reached> reached;
   if (options.accuracy_check != "none") reached = accuracy::measure_reached(scene, choice, picture);
   record.accuracy = accuracy::accuracy_record(choice, reached);
+  if (const auto own = accuracy::own_lobe(scene); own && choice.lobe) {
+    const double exponent =
+        std::ranges::find_if(scene.materials, has_highlight)->highlight.exponent;
+    const std::vector<Times> times =
+        cost::value_times({{*choice.lobe, exponent, choice.precision == Precision::kFloat64},
+                           {*own, exponent, true}});
+    record.accuracy->value_seconds.emplace(times[0].median, times[1].median);
+  }
   if (!verbosity().quiet)
-    say("{}{}", accuracy::choice_text(choice),
+    say("{}{}", accuracy::choice_text(choice, *record.accuracy),
         reached ? accuracy::reached_text(choice, *reached) : "");
   return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
@@ -173,8 +182,10 @@ void add_render(CLI::App& app, ExitCode& code) {
   add_common(group, "--threads", options->render.threads)
       ->check(between(0, 1024))
       ->capture_default_str();
-  group.add_choice("--effects", options->effects, {"as-called-for", "all"},
-                   "Simulate effects as the scene calls for them, or all");
+  group.add_choice(
+      "--effects", options->effects, {"as-called-for", "all"},
+      "Simulate effects as the scene calls for them, or all. The picture is the same to "
+      "the bit; where something is random, equal in the mean");
   std::vector<std::string> precisions{"sufficient"};
   precisions.insert(precisions.end(), precision_names().begin(), precision_names().end());
   auto* precision = group.add_choice(

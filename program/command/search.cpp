@@ -77,7 +77,8 @@ void add_search(CLI::App& app, ExitCode& exit_code) {
   options->limits.add_to(output);
   command->footer(
       "pkD.M is a clamped polynomial of degree D and M squarings, rkD.M a reciprocal, bkD.M the bits of\n"
-      "a polynomial read as a number. Coefficients are best for the largest error; the other metrics\n"
+      "a polynomial read as a number. 'free' has pfD.M, rfD.M and bfD.M, whose peak is not 1: nearer at\n"
+      "the same price, but no lobes for a scene file. Coefficients are best for the largest error; the other metrics\n"
       "choose among those lobes. docs/cheapest_lobe.md has the method and the proofs.\n"
       "\n"
       "Examples:\n"

@@ -230,6 +230,12 @@ void add_lobes(py::module_& module) {
                return radiance_coefficient(one);
              });
            })
+      .def("normalisation_constant",
+           [](const Highlight& highlight, const Doubles& n) {
+             return of_highlight(highlight, n, n.size(), [](const Highlight& one, std::size_t) {
+               return normalisation_constant(one);
+             });
+           })
       .def("albedo",
            [](const Highlight& highlight, const Doubles& n, const Doubles& incidence,
               bool of_light) {

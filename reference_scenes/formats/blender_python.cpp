@@ -34,7 +34,9 @@ std::string why_not_blender_python(const Scene& scene) {
   if (std::string why = why_not_spelled_out(scene); !why.empty()) return why;
   for (const Light& light : scene.lights)
     if (const auto lamp = find_lamp(light); lamp && lamp->has_normal())
-      return "a point light falls with the cosine to its normal, and Blender's lamps do not";
+      return lamp->spot
+                 ? "it has a spot light, which this script does not make"
+                 : "a point light falls with the cosine to its normal, and Blender's lamps do not";
   return {};
 }
 

@@ -38,7 +38,7 @@ std::string why_not_so_many_spheres(const Scene& scene) {
 }
 
 std::string why_not_spelled_out(const Scene& scene) {
-  constexpr std::string_view kKnown[] = {"directional", "point",    "sphere",
+  constexpr std::string_view kKnown[] = {"directional", "point",    "spot",  "sphere",
                                          "rectangle",   "constant", "envmap"};
   for (const Light& light : scene.lights)
     if (std::ranges::find(kKnown, info(light).type) == std::end(kKnown))

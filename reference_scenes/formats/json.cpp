@@ -42,7 +42,10 @@ records::SceneLight light_record(const Light& light) {
   record.filename = picture_file(light);
   for (const auto& [parameter, value] : written_parameters(light)) {
     if (std::holds_alternative<Rgb>(value)) record.unit = parameter.unit;
-    if (const auto* radius = std::get_if<double>(&value)) record.radius = *radius;
+    if (const auto* number = std::get_if<double>(&value))
+      (parameter.name == "cutoff_angle" ? record.cutoff_degrees
+       : parameter.name == "beam_width" ? record.beam_degrees
+                                        : record.radius) = *number;
     const auto* vector = std::get_if<Vec3>(&value);
     if (auto* const place = place_of(record, parameter.name); place && vector)
       *place = triple(*vector);

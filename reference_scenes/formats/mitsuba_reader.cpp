@@ -197,9 +197,8 @@ class MitsubaReader {
       material.diffuse_reflectance = values.rgb("diffuse_reflectance");
     } else if (is_plain_ggx(node)) {
       const Values values = file_.values(node, kMitsubaConductorParameters, {"boolean"});
-      const double alpha = values.number("alpha");
-      material.highlight = {
-          *find_model("microfacet_smith"), *find_lobe("ggx"), {}, 2 / (alpha * alpha) - 2};
+      set_model(material.highlight, kGgx);
+      material.highlight.exponent = exponent_of_alpha(values.number("alpha"));
       material.specular_reflectance = values.rgb("specular_reflectance");
       material.diffuse_reflectance = {};
     } else if (MitsubaSource::type(node) == "diffuse") {

@@ -68,10 +68,13 @@ std::string coefficient_formula(const Highlight& highlight) {
     return share + fill(lobe.column == PaperColumn::kCosine ? model.texts.paper_cosine
                                                             : model.texts.paper_cs16,
                         {{"pi", pi}});
-  if (lobe.column == PaperColumn::kCosine)
+  // The integral of GGX times its cosine is that of cos^n: 1 / (n + 2).
+  const EnergyIntegral& energy = model.energy;
+  const bool is_projected = energy.s_max == 1 && energy.weights == std::array{1.0, -1.0, 0.0, 0.0};
+  if (lobe.column == PaperColumn::kCosine ||
+      (is_projected && info(highlight.lobe).name == kGgx))
     return share + fill(model.texts.exact_cosine, {{"pi", pi}});
   if (lobe.text.slope.empty()) return "";
-  const EnergyIntegral& energy = model.energy;
   return fmt::format("{} / lobelia_{}_energy(n, {}, {}, {}, {}, {})",
                      float32_text(model.share / (2 * kPi)), identifier(highlight.lobe),
                      float32_text(energy.s_max), float32_text(energy.weights[0]),

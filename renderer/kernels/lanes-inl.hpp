@@ -26,6 +26,16 @@ inline constexpr float kHalfSquareOfAngle[] = {0.1666666688f,   0.04444409844f, 
                                                0.004988465579f, 0.002371639728f, -0.0004488384646f,
                                                0.002161792173f, -0.00140708189f, 0.0006289906971f};
 
+/// Q(f) of log(1 + f) = f - f^2/2 + f^3 Q(f) for 1 + f from sqrt(1/2) to sqrt(2), within 1.9e-7, and P(r) of
+/// exp(r) = 1 + r + r^2 P(r) for |r| up to log(2)/2, within 6.5e-8: as above.
+inline constexpr float kLogarithm[] = {0.3333333073f,  -0.2500030642f, 0.2000104509f,
+                                       -0.1664128146f, 0.1421449592f,  -0.1299818376f,
+                                       0.1262231985f,  -0.07902743772f};
+inline constexpr float kExponential[] = {0.5f, 0.1666657703f, 0.04166655466f, 0.008363173075f,
+                                         0.001392617612f};
+/// log(2) in two parts; products of the first with an exponent of float32 are exact.
+inline constexpr float kLog2High = 0x1.63p-1f, kLog2Low = -2.12194440e-4f;
+
 template <class T>
 struct LanesOf {
   using Scalar = T;
@@ -61,23 +71,26 @@ struct LanesOf {
     constexpr T kHighest = -std::numeric_limits<T>::epsilon() / 8;
     const auto normal = hn::Ge(x.v, hn::Set(d, kLowest));
     const auto counts = hn::And(normal, hn::Le(x.v, hn::Set(d, kHighest)));
-    return LanesOf(hn::IfThenElseZero(normal, hn::Exp(d, hn::IfThenElseZero(counts, x.v))));
+    const auto inside = hn::IfThenElseZero(counts, x.v);
+    if constexpr (std::is_same_v<T, float>)
+      return LanesOf(hn::IfThenElseZero(normal, exp32(LanesOf(inside)).v));
+    else
+      return LanesOf(hn::IfThenElseZero(normal, hn::Exp(d, inside)));
   }
   friend HWY_INLINE LanesOf log_one_minus(LanesOf s) {
     const D d;
     // There is no logarithm for s >= 1; s = 0 instead keeps the arithmetic finite.
     const auto inside = hn::IfThenElseZero(hn::Lt(s.v, hn::Set(d, T(1))), s.v);
-    return LanesOf(hn::Log1p(d, hn::Neg(inside)));
+    if constexpr (std::is_same_v<T, float>)
+      return log_one_minus32(LanesOf(inside));
+    else
+      return LanesOf(hn::Log1p(d, hn::Neg(inside)));
   }
   friend HWY_INLINE LanesOf half_square_of_angle(LanesOf s) {
     const D d;
     const LanesOf inside(hn::Min(s.v, hn::Set(d, T(1))));
     if constexpr (std::is_same_v<T, float>) {
-      constexpr std::size_t kTerms = std::size(kHalfSquareOfAngle);
-      LanesOf sum(kHalfSquareOfAngle[kTerms - 1]);
-      for (std::size_t i = kTerms - 1; i-- > 0;)
-        sum = sum * inside + LanesOf(kHalfSquareOfAngle[i]);
-      return inside + inside * inside * sum;
+      return inside + inside * inside * horner(kHalfSquareOfAngle, inside);
     } else {
       const LanesOf half_angle(hn::Asin(d, sqrt(LanesOf(0.5) * inside).v));
       return LanesOf(2.0) * half_angle * half_angle;
@@ -105,6 +118,46 @@ struct LanesOf {
     } else {
       return LanesOf(1.0) - LanesOf(q) * s;
     }
+  }
+
+ private:
+  template <std::size_t kTerms>
+  static HWY_INLINE LanesOf horner(const float (&c)[kTerms], LanesOf x) {
+    LanesOf sum(c[kTerms - 1]);
+    for (std::size_t i = kTerms - 1; i-- > 0;) sum = multiply_add(sum, x, LanesOf(c[i]));
+    return sum;
+  }
+  /// The float32 functions below are within two units in the last place, and so a power within 1e-7 of its peak, in two
+  /// thirds of the time of Highway's, which hold for all arguments.
+  /// For s from 0 to below 1.
+  static HWY_INLINE LanesOf log_one_minus32(LanesOf s) {
+    const D d;
+    const hn::RebindToSigned<D> whole;
+    const LanesOf c = LanesOf(1.0) - s;
+    const LanesOf lost =
+        (LanesOf(1.0) - c) - s;  // c + lost is 1 - s exactly; lost is 0 where c is far from 1
+    constexpr std::int32_t kRootOfHalf = 0x3f3504f3;
+    const auto bits = hn::BitCast(whole, c.v);
+    const auto k = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(whole, kRootOfHalf)));
+    const LanesOf power(hn::ConvertTo(d, k));
+    const LanesOf f = LanesOf(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(k)))) - LanesOf(1.0);
+    const LanesOf square = f * f;
+    LanesOf sum = multiply_add(power, LanesOf(kLog2Low), lost);
+    sum = multiply_add(f * square, horner(kLogarithm, f), sum);
+    sum = multiply_add(LanesOf(-0.5), square, sum) + f;
+    return multiply_add(power, LanesOf(kLog2High), sum);
+  }
+  /// For x from the logarithm of the smallest normal number to 0.
+  static HWY_INLINE LanesOf exp32(LanesOf x) {
+    const D d;
+    const hn::RebindToSigned<D> whole;
+    const LanesOf power(hn::Round((x * LanesOf(1.44269504)).v));
+    LanesOf r = multiply_add(power, LanesOf(-kLog2High), x);
+    r = multiply_add(power, LanesOf(-kLog2Low), r);
+    const LanesOf value = multiply_add(r * r, horner(kExponential, r), LanesOf(1.0) + r);
+    const auto bits =
+        hn::Add(hn::BitCast(whole, value.v), hn::ShiftLeft<23>(hn::ConvertTo(whole, power.v)));
+    return LanesOf(hn::BitCast(d, bits));
   }
 };
 using Lanes = LanesOf<double>;

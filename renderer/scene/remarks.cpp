@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "base/words/constants.hpp"
+
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
@@ -25,6 +27,27 @@ bool may_be_seen(const Scene& scene, const CameraFrame& frame, const Sphere& sph
   const double lens = std::asin(std::min(1.0, scene.camera.aperture_radius / distance));
   return std::acos(std::clamp(dot(to_center, frame.forward) / distance, -1.0, 1.0)) <=
          corner + widening + lens;
+}
+
+/// Whether a lamp that shines to one side, or in a cone, lights no point of any sphere or plane. In doubt false.
+bool faces_away(const Scene& scene, const Lamp& lamp) {
+  const double cutoff = lamp.spot ? lamp.spot->cutoff * kPi / 180 : kPi / 2;
+  const auto may_light = [&](const Sphere& sphere) {
+    const Vec3 to_center = sphere.center - lamp.position;
+    const double distance = length(to_center);
+    if (distance <= sphere.radius) return true;
+    const double off = std::acos(std::clamp(dot(to_center, lamp.normal) / distance, -1.0, 1.0));
+    return off - std::asin(sphere.radius / distance) < cutoff;
+  };
+  const auto may_light_plane = [&](const Plane& plane) {
+    // The plane's points lie within a right angle of the way to it.
+    const double height = dot(plane.point - lamp.position, plane.normal);
+    const Vec3 down = height < 0 ? -plane.normal : plane.normal;
+    const double off = std::acos(std::clamp(dot(down, lamp.normal), -1.0, 1.0));
+    return height == 0 || off - kPi / 2 < cutoff;
+  };
+  return std::ranges::none_of(scene.spheres, may_light) &&
+         std::ranges::none_of(scene.planes, may_light_plane);
 }
 
 }  // namespace
@@ -60,6 +83,17 @@ std::vector<std::string> remarks(const Scene& scene) {
       if (const auto k = holder(scene, lamp->position, inside_by_more); k && ++hidden <= kMostNamed)
         found.push_back(fmt::format(
             "light {} is inside sphere {}, which hides it: it lights nothing outside", l, *k));
+  if (!scene.spheres.empty() || !scene.planes.empty()) {
+    std::size_t away = 0;
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+      const auto lamp = is_area(scene.lights[l]) ? lamp_of_same_power(scene.lights[l])
+                                                 : find_near_lamp(scene.lights[l]);
+      if (lamp && lamp->has_normal() && faces_away(scene, *lamp) && ++away <= kMostNamed)
+        found.push_back(fmt::format("light {} faces away from every shape: it lights nothing", l));
+    }
+    if (away > kMostNamed)
+      found.push_back(fmt::format("{} more lights face away from every shape", away - kMostNamed));
+  }
   if (hidden > kMostNamed)
     found.push_back(
         fmt::format("{} more lights are inside spheres, which hide them", hidden - kMostNamed));

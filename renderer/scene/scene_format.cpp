@@ -76,6 +76,7 @@ std::span<const ElementFormat> material_formats() {
     std::vector<ElementFormat> result;
     for (const auto& model : models())
       result.push_back({"bsdf", model.name, model.title, kHighlightParameters});
+    result.push_back({"bsdf", kGgx, "GGX by its roughness", kGgxParameters});
     return result;
   }();
   return formats;
@@ -222,6 +223,10 @@ one. `lobelia plan` says what a scene gets.
                  kHighlightParameters});
   text += "\nMODEL is one of:\n\n";
   for (const auto& model : models()) text += fmt::format("- `{}`: {}\n", model.name, model.title);
+  text += table(material_formats().back());
+  text +=
+      "\nIt is the model `microfacet_smith` with the lobe `ggx`, and the exponent 2 / alpha^2 - 2: "
+      "isotropic,\nwith Smith's height-correlated shadowing. The writer spells it so.\n";
   text += fmt::format(
       R"--(
 ### A lobe by its formula

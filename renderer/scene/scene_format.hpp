@@ -114,6 +114,18 @@ inline constexpr Parameter kHighlightParameters[] = {
      "so that 0 is no mirror at any angle"},
 };
 
+/// GGX has no lobe and no exponent to choose; the rest is a highlight's.
+inline constexpr Parameter kGgxParameters[] = {
+    {"roughness", ParameterType::kFloat, "1", kLeastRoughness, 1, "",
+     "alpha is its square; or give alpha"},
+    {"alpha", ParameterType::kFloat, "1", kLeastAlpha, 1, "", "in place of roughness"},
+    {"fresnel", ParameterType::kString, "schlick", 0, 0, "", kHighlightParameters[4].meaning},
+    {"specular_reflectance", ParameterType::kRgb, "1", 0, 1, "",
+     "F0: 0.04 for most plastics, the colour of a metal"},
+    kHighlightParameters[6],
+    kHighlightParameters[7],
+};
+
 inline constexpr ElementFormat kPerspective{"sensor", "perspective", "the camera",
                                             kPerspectiveParameters};
 inline constexpr ElementFormat kThinLens{"sensor", "thinlens", "a camera with a lens, and its blur",

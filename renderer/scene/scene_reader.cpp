@@ -180,12 +180,16 @@ class SceneReader {
     ++materials_seen_;
     if (const ElementFormat* format = reader_.format_of(node, material_formats())) {
       const Values values = reader_.read_parameters(node, format->parameters);
-      material.highlight.model = *find_model(format->type);
-      material.highlight.exponent = values.number("exponent");
-      read_lobe(values, node, material.highlight);
-      reader_.choose(values["normalisation"], node, "normalisation", normalisation_names(),
-                     join(normalisation_names()), find_normalisation,
-                     material.highlight.normalisation);
+      set_model(material.highlight, format->type);
+      if (format->type == kGgx) {
+        read_roughness(values, node, material.highlight);
+      } else {
+        material.highlight.exponent = values.number("exponent");
+        read_lobe(values, node, material.highlight);
+        reader_.choose(values["normalisation"], node, "normalisation", normalisation_names(),
+                       join(normalisation_names()), find_normalisation,
+                       material.highlight.normalisation);
+      }
       reader_.choose(values["fresnel"], node, "fresnel", fresnel_names(), join(fresnel_names()),
                      find_fresnel, material.fresnel);
       material.specular_reflectance = values.rgb("specular_reflectance");
@@ -194,6 +198,15 @@ class SceneReader {
     }
     scene_.materials.push_back(std::move(material));
     return materials_seen_ - 1;
+  }
+
+  void read_roughness(const Values& values, pugi::xml_node material, Highlight& highlight) {
+    const bool by_alpha = bool(values["alpha"].node);
+    if (by_alpha == bool(values["roughness"].node))
+      source_.error(material, by_alpha ? "<bsdf type=\"ggx\"> has roughness and alpha; allowed: one"
+                                       : "<bsdf type=\"ggx\"> needs roughness, or alpha");
+    highlight.exponent = by_alpha ? exponent_of_alpha(values.number("alpha"))
+                                  : exponent_of_roughness(values.number("roughness"));
   }
 
   void read_lobe(const Values& values, pugi::xml_node material, Highlight& highlight) {

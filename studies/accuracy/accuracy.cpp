@@ -14,6 +14,7 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/plan/plan.hpp"
+#include "renderer/small_highlights.hpp"
 
 namespace lobelia::accuracy {
 namespace {
@@ -26,6 +27,8 @@ constexpr double kLookMargin = 1.25;
 constexpr double kLookShare = 0.995;
 /// Longer sides of the sampled pixels without noise and with it.
 constexpr int kQuietSide = 128, kNoisySide = 48;
+/// On a CIEDE2000 without noise: the truth is by formulas, and a value in float32.
+constexpr double kCiedeMargin = 1.001;
 /// Samples of a noisy truth, in units of the most that may be chosen: its noise is then small beside any choice's.
 constexpr int kTruthSamples = 8;
 
@@ -54,7 +57,7 @@ double cost_of(const Scene& scene, std::optional<LobeId> lobe, Precision precisi
   return most;
 }
 
-/// From the cheapest; at equal cost the scene's own lobe before others, and the wider precision before the narrower.
+/// From the cheapest; at equal cost the scene's own lobe before others.
 std::vector<LobeVariant> variants_of(const Scene& scene, const CostModel& model) {
   const auto own = own_lobe(scene);
   std::vector<std::optional<LobeId>> lobes;
@@ -81,10 +84,6 @@ class Bounds {
     scale_ = peak_bound(highlights, highlights.lights) / peak;
   }
 
-  /// The most that the lights can bring to highlights, relative to the picture's peak: the factor from an error of a
-  /// highlight to one of the picture.
-  double scale() const { return scale_; }
-
   double of(const LobeVariant& variant) const {
     double most = 0;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
@@ -103,44 +102,97 @@ class Bounds {
  private:
   const Scene& scene_;
   std::vector<double> least_half_;
+  /// The most that the lights can bring to highlights, relative to the picture's peak: the factor from an error of a
+  /// highlight to one of the picture.
   double scale_;
 };
 
-/// The CIEDE2000 that `share` of the pixels do not exceed, with the peak at display white.
-double ciede2000_percentile(const Image& picture, const Image& truth, double share) {
-  const double stops =
-      std::clamp(exposure_for_peak(peak_value(truth)), -kMaxExposureStops, kMaxExposureStops);
+/// The CIEDE2000 that `share` of the pixels do not exceed, with `peak` at display white.
+double ciede2000_percentile(const Image& picture, const Image& truth, double peak, double share) {
+  const double stops = std::clamp(exposure_for_peak(peak), -kMaxExposureStops, kMaxExposureStops);
   return percentile(ciede2000_of_pixels({picture, stops}, {truth, stops}), share);
 }
 
-/// Some of the picture's pixels, by the scene's own lobe in float64.
+/// The largest difference, over the pixels that are not edges.
+double largest_difference(const Image& a, const Image& b, const PixelFlags& edges = {}) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i)
+    if (edges.empty() || !edges[i / 3])
+      most = std::max(most, std::abs(double(a.values()[i]) - double(b.values()[i])));
+  return most;
+}
+
+Image picture_of(const LobeVariant& variant, const Scene& scene) {
+  RenderOptions options;
+  options.precision = variant.precision;
+  return render(variant.of(scene), options).image;
+}
+
+/// A picture without noise by the scene's own lobe in float64, and how far others are from it.
+class QuietTruth {
+ public:
+  QuietTruth(const Scene& scene, const LobeVariant& own, Measure measure)
+      : scene_(scene),
+        measure_(measure),
+        picture_(picture_of(own, scene)),
+        peak_(peak_value(picture_)) {
+    // The average of a highlight over a pixel is another for other pixels.
+    if (scene.sampler.averages_small_highlights && !find_small_highlights(scene).empty()) return;
+    some_ = pixel_subset(scene, kQuietSide);
+    of_some_ = picture_of(own, some_);
+  }
+
+  double peak() const { return peak_; }
+  double error(const LobeVariant& variant) const {
+    return error_of(picture_of(variant, scene_), picture_, kCiedeShare);
+  }
+  /// At most error(), from few pixels; with CIEDE2000 nearly always.
+  double least_error(const LobeVariant& variant) const {
+    if (of_some_.values().empty()) return 0;
+    return error_of(picture_of(variant, some_), of_some_, kLeastCiedeShare) - 2 * kStorage;
+  }
+
+ private:
+  static constexpr double kCiedeShare = 0.99, kLeastCiedeShare = 0.98;
+
+  double error_of(const Image& picture, const Image& truth, double share) const {
+    return measure_ == Measure::kCiede2000P99
+               ? kCiedeMargin * ciede2000_percentile(picture, truth, peak_, share)
+               : largest_difference(picture, truth) / peak_ + kStorage;
+  }
+
+  const Scene& scene_;
+  Measure measure_;
+  Image picture_;
+  double peak_;
+  Scene some_;
+  Image of_some_;
+};
+
+/// Some of the pixels of a picture with noise, by the scene's own lobe in float64.
 class Look {
  public:
   Look(const Scene& scene, Measure measure, int most_samples)
-      : noisy_(is_noisy(scene)),
-        measure_(measure),
-        scene_(pixel_subset(scene, noisy_ ? kNoisySide : kQuietSide)) {
+      : measure_(measure), scene_(pixel_subset(scene, kNoisySide)) {
     Scene other = scene_;
     ++other.sampler.seed;
-    RenderOptions options = noisy_ ? with_samples(kTruthSamples * most_samples) : RenderOptions();
+    RenderOptions options = with_samples(kTruthSamples * most_samples);
     options.precision = Precision::kFloat64;
     truth_ = render(other, options).image;
   }
 
-  bool is_black() const { return !(peak() > 0); }
-  double peak() const { return peak_value(truth_); }
+  bool is_black() const { return !(peak_value(truth_) > 0); }
   double error(const LobeVariant& variant, int samples) const {
-    RenderOptions options = noisy_ ? with_samples(samples) : RenderOptions();
+    RenderOptions options = with_samples(samples);
     options.precision = variant.precision;
     const Image image = render(variant.of(scene_), options).image;
     const double error = measure_ == Measure::kCiede2000P99
-                             ? ciede2000_percentile(image, truth_, kLookShare)
+                             ? ciede2000_percentile(image, truth_, peak_value(truth_), kLookShare)
                              : rms_of_peak(image, truth_);
     return kLookMargin * error + (measure_ == Measure::kCiede2000P99 ? 0 : kStorage);
   }
 
  private:
-  bool noisy_;
   Measure measure_;
   Scene scene_;
   Image truth_;
@@ -156,16 +208,22 @@ Choice chosen(Choice choice, const Scene& scene, const LobeVariant& variant, dou
   return choice;
 }
 
-/// The first variant, from the cheapest, with a small enough error; counts those before it.
+/// The cheapest variant with a small enough error; of several at one price that with the smallest. Counts the cheaper
+/// ones. `error` may be infinite for what is not worth a measurement.
 template <class Error>
-const LobeVariant* first_within(const std::vector<LobeVariant>& variants, const Error& error,
-                                Choice& choice) {
+const LobeVariant* cheapest_within(const std::vector<LobeVariant>& variants, const Error& error,
+                                   Choice& choice) {
+  const LobeVariant* best = nullptr;
   for (const LobeVariant& variant : variants) {
-    choice.predicted = error(variant);
-    if (choice.predicted <= choice.asked.value) return &variant;
-    ++choice.others;
+    if (best && variant.cost > best->cost) break;
+    const double here = error(variant);
+    if (here > choice.asked.value || (best && here >= choice.predicted)) continue;
+    best = &variant;
+    choice.predicted = here;
   }
-  return nullptr;
+  choice.others = int(std::ranges::count_if(
+      variants, [&](const LobeVariant& v) { return !best || v.cost < best->cost; }));
+  return best;
 }
 
 const LobeVariant& own_variant(const std::vector<LobeVariant>& variants) {
@@ -174,9 +232,9 @@ const LobeVariant& own_variant(const std::vector<LobeVariant>& variants) {
   });
 }
 
-/// All sampled pixels are black, so that the variants cannot be told apart.
+/// The picture is black, so that the variants cannot be told apart.
 Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeVariant>& variants) {
-  choice.basis = Basis::kLook;
+  choice.basis = Basis::kTrial;
   choice.why =
       "every pixel that was looked at is black, where all ways do alike: the scene's own lobe in float64, with "
       "its own samples";
@@ -184,38 +242,35 @@ Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeVar
 }
 
 Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeVariant>& variants) {
-  const Look look(scene, choice.measure, 1);
-  if (look.is_black()) return choose_black(std::move(choice), scene, variants);
-  if (choice.measure == Measure::kCiede2000P99) {
-    choice.basis = Basis::kLook;
-    const LobeVariant* variant = first_within(
-        variants, [&](const LobeVariant& w) { return look.error(w, 1); }, choice);
-    choice.why = fmt::format(
-        "the cheapest of {} ways whose error, in a look at every few pixels and with a quarter added, is "
-        "within what was asked; {} cheaper ones are not",
-        variants.size(), choice.others);
-    return chosen(choice, scene, *variant, choice.predicted);
-  }
-  const Bounds bounds(scene, look.peak());
-  const LobeVariant* variant = first_within(
-      variants, [&](const LobeVariant& w) { return bounds.of(w); }, choice);
-  if (variant) {
-    choice.why = fmt::format(
-        "the cheapest of {} ways whose bound is within what was asked; {} cheaper ones are not. The "
-        "lights can bring {:.3g} times the picture's peak to highlights, and so much their errors count",
-        variants.size(), choice.others, bounds.scale());
-    return chosen(choice, scene, *variant, choice.predicted);
-  }
-  // Vectors rounded to float64 have no exact half vector where light and eye face each other.
-  choice.basis = Basis::kLook;
-  choice.why =
-      "no way has a bound as small as what was asked: the scene's own lobe in float64 is the best there is";
-  return chosen(choice, scene, own_variant(variants), kStorage);
+  const LobeVariant& own = own_variant(variants);
+  const QuietTruth truth(scene, own, choice.measure);
+  if (!(truth.peak() > 0)) return choose_black(std::move(choice), scene, variants);
+  const Bounds bounds(scene, truth.peak());
+  const bool bounded = choice.measure != Measure::kCiede2000P99;
+  const LobeVariant* variant = cheapest_within(
+      variants,
+      [&](const LobeVariant& v) {
+        if (&v == &own) return kStorage;
+        const double bound = bounded ? bounds.of(v) : INFINITY;
+        if (bound <= choice.asked.value) return bound;
+        return truth.least_error(v) > choice.asked.value ? INFINITY : truth.error(v);
+      },
+      choice);
+  const double bound = bounded ? bounds.of(*variant) : INFINITY;
+  choice.basis = bound <= choice.asked.value ? Basis::kBound : Basis::kTrial;
+  choice.why = fmt::format(
+      "the cheapest of {} ways that is within what was asked, {}; {} cheaper ones are not",
+      variants.size(),
+      choice.basis == Basis::kBound
+          ? "by a bound for every pixel"
+          : "by a trial of the whole picture against the scene's own lobe in float64",
+      choice.others);
+  return chosen(choice, scene, *variant, choice.predicted);
 }
 
 Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVariant>& variants,
                     int most_samples) {
-  choice.basis = Basis::kLook;
+  choice.basis = Basis::kTrial;
   const Look look(scene, choice.measure, most_samples);
   if (look.is_black()) return choose_black(std::move(choice), scene, variants);
   const LobeVariant& own = own_variant(variants);
@@ -235,7 +290,7 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVar
                 std::ceil(best / std::pow(10, std::floor(std::log10(best)) - 1)) *
                     std::pow(10, std::floor(std::log10(best)) - 1));
   choice.samples = samples;
-  const LobeVariant* variant = first_within(
+  const LobeVariant* variant = cheapest_within(
       variants,
       [&](const LobeVariant& w) { return w.cost > own.cost ? INFINITY : look.error(w, samples); },
       choice);
@@ -244,16 +299,6 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVar
       "with a quarter added; of {} ways this is the cheapest that still is, and {} cheaper ones are not",
       samples, variants.size(), choice.others);
   return chosen(choice, scene, *variant, choice.predicted);
-}
-
-/// Over the pixels that are not edges.
-double max_error_of_peak(const Image& picture, const Image& truth, const PixelFlags& edges) {
-  const auto a = picture.values(), b = truth.values();
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (edges.empty() || !edges[i / 3])
-      most = std::max(most, std::abs(double(a[i]) - double(b[i])));
-  return most == 0 ? 0 : most / peak_value(truth);
 }
 
 }  // namespace
@@ -298,7 +343,8 @@ Reached measure_reached(const Scene& scene, const Choice& choice, const Image& p
       // On an edge the formulas may hit another surface, which is no error of a lobe or of its precision.
       const bool formulas = truth::why_not_evaluated(scene).empty();
       const auto edges = formulas ? truth::edge_ring(scene) : PixelFlags();
-      reached.value = max_error_of_peak(picture, truth.image, edges);
+      const double most = largest_difference(picture, truth.image, edges);
+      reached.value = most == 0 ? 0 : most / peak_value(truth.image);
       if (formulas) reached.against += ", but for pixels on edges";
     }
   }

@@ -1,7 +1,7 @@
 // A picture by the accuracy that it should have: the cheapest sufficient lobe, precision and number of samples.
 //
-// The cost of a variant is predicted from its operations, its error from the lobes themselves or from some of the
-// picture's pixels; docs/cost.md says what is promised and how.
+// The cost of a variant is predicted from its operations, its error from the lobes themselves or from a trial of the
+// picture; docs/cost.md says what is promised and how.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ std::string accuracy_text(const Accuracy& accuracy);  ///< as parse_accuracy tak
 /// Why a prediction holds.
 enum class Basis {
   kBound,  ///< an upper bound for every pixel, from the lobes and the roundings
-  kLook,   ///< measured on some of the pixels, with a quarter added
+  kTrial,  ///< measured on the whole picture; with noise on some of its pixels, with a quarter added
 };
 
 /// How an accuracy is measured: by its unit, and in a picture with noise by the root mean square.
@@ -83,7 +83,7 @@ std::string measure_text(Measure measure);  ///< "largest error of the peak"
 
 records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reached>& reached);
 /// Lines for people: what was chosen and why; what was reached.
-std::string choice_text(const Choice& choice);
+std::string choice_text(const Choice& choice, const records::Accuracy& record);
 std::string reached_text(const Choice& choice, const Reached& reached);
 
 // The truth that a picture is compared with: the scene as its file has it, with its own lobe and coefficient.

@@ -13,20 +13,9 @@
 namespace lobelia::accuracy {
 namespace {
 
-/// From `lobelia cost --level picture reference_scenes/scenes/head_on.xml` with AVX-512, where a
-/// multiplication is some 0.015 ms a megapixel (docs/cost.md). Exponentials and logarithms in float64 take
-/// more terms on half as many lanes; the rest of a kernel hides part of the simple operations.
-/// float16 is emulated, before the lobe too: one half float after another.
-struct Weights {
-  double simple, divide_or_root, transcendental;
-  double rounding;  ///< of float64 to float32: of nine components, one s, or nothing
-};
-constexpr Weights kWeights[] = {
-    {1, 6, 28, 4}, {1, 6, 28, 3}, {1.5, 10, 70, 0}, {170, 170, 2700, 10000}};
-static_assert(std::size(kWeights) == kPrecisionCount);
-/// Costs of a formula, evaluated node by node and one value at a time: 27 ns for c^n, 53 ns for
-/// max(0, 1 - n s / 16)^16, 70 ns for exp(-n x^2 / 2), with 0.015 ns a multiplication.
-constexpr double kOfANode = 250, kOfItsTranscendentals = 1000;
+/// The rounding before a lobe: of float64 to float32 in nine components, in one s, or none; half floats are emulated.
+constexpr double kRoundingPrice[] = {4, 3, 0, 10000};
+static_assert(std::size(kRoundingPrice) == kPrecisionCount);
 
 }  // namespace
 
@@ -104,14 +93,7 @@ double highlight_difference(const Highlight& stand_in, const Highlight& target) 
 }
 
 double shading_cost(LobeId lobe, Precision precision) {
-  const OperationCount count = operations(lobe);
-  if (lobe.formula)
-    return kOfANode * double(lobe.formula->nodes().size()) +
-           kOfItsTranscendentals * count.transcendental;
-  const Weights& w = kWeights[std::size_t(precision)];
-  return w.simple * (count.multiply + count.add + count.compare) +
-         w.divide_or_root * (count.divide + count.root) + w.transcendental * count.transcendental +
-         w.rounding;
+  return price(lobe, precision) + (lobe.formula ? 0 : kRoundingPrice[std::size_t(precision)]);
 }
 
 }  // namespace lobelia::accuracy

@@ -26,9 +26,8 @@ std::vector<LobeId> lobe_candidates(const Scene& scene);
 /// the lobes bend and refined there. Model and exponent are the same in both.
 double highlight_difference(const Highlight& stand_in, const Highlight& target);
 
-/// The expected cost of a point and a light, in multiplications of float32: the lobe's weighted operations and the
-/// rounding to a narrower precision, without the rest, which is the same for all. From operations alone, so that a choice
-/// by it is the same on every machine; `lobelia cost` measures times.
+/// The expected cost of a point and a light: the lobe's price (renderer/operation_count.hpp) and that of rounding to a
+/// narrower precision, without the rest, which is the same for all.
 double shading_cost(LobeId lobe, Precision precision);
 
 }  // namespace lobelia::accuracy

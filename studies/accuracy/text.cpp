@@ -1,11 +1,26 @@
 // An accuracy as text and as a record.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/system/error.hpp"
+#include "base/words/error_time_chart.hpp"
 #include "base/words/text.hpp"
 #include "studies/accuracy/accuracy.hpp"
 
 namespace lobelia::accuracy {
+namespace {
+
+/// The command that writes the lobe's code; empty where there is none.
+std::string code_text(const Choice& choice) {
+  const auto with = std::ranges::find_if(choice.scene.materials, has_highlight);
+  if (!choice.lobe || choice.lobe->formula || with == choice.scene.materials.end()) return "";
+  return fmt::format("  Its code: lobelia export --language glsl {} --lobe {} --exponent {}\n",
+                     info(with->highlight.model).name, info(*choice.lobe).name,
+                     with->highlight.exponent);
+}
+
+}  // namespace
 
 Accuracy parse_accuracy(const std::string& text) {
   constexpr std::string_view kCiede = "de2000=";
@@ -49,7 +64,7 @@ records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reac
   record.chose.samples = choice.samples.value_or(1);
   record.why = choice.why;
   record.operations = {choice.cost, choice.own_cost};
-  record.basis = choice.basis == Basis::kBound ? "bound" : "look";
+  record.basis = choice.basis == Basis::kBound ? "bound" : "trial";
   record.predicted = choice.predicted;
   if (reached)
     record.reached = records::AccuracyReached{reached->value, reached->held(choice),
@@ -57,14 +72,19 @@ records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reac
   return record;
 }
 
-std::string choice_text(const Choice& choice) {
+std::string choice_text(const Choice& choice, const records::Accuracy& record) {
+  const auto& seconds = record.value_seconds;
   return fmt::format(
-      "accuracy {}: {}, {}{}; {} predicted to be at most {:.2g}. {:g} operations a point, weighted, where the "
-      "scene's own lobe in float64 takes {:g}.\n  {}.\n",
+      "accuracy {}: use {} in {}{}; {} predicted to be at most {:.2g}.\n"
+      "  Price {:g}{}, where the scene's own lobe in float64 has {:g}{}.\n  {}.\n{}",
       accuracy_text(choice.asked),
       choice.lobe ? info(*choice.lobe).name : "each highlight's own lobe", name(choice.precision),
-      choice.samples ? fmt::format(", {} samples a pixel", *choice.samples) : std::string(),
-      measure_text(choice.measure), choice.predicted, choice.cost, choice.own_cost, choice.why);
+      choice.samples ? fmt::format(" with {} samples a pixel", *choice.samples) : std::string(),
+      measure_text(choice.measure), choice.predicted, choice.cost,
+      seconds ? fmt::format(", {} a value", short_time_text(seconds->chosen)) : std::string(),
+      choice.own_cost,
+      seconds ? fmt::format(", {}", short_time_text(seconds->own_in_float64)) : std::string(),
+      choice.why, code_text(choice));
 }
 
 std::string reached_text(const Choice& choice, const Reached& reached) {

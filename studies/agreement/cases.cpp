@@ -145,6 +145,8 @@ std::vector<Case> effect_cases(const Scope& scope) {
   }
   add("planes and a checker", kNative, grey(ground_scene(kNative, {sun}, size)), kCheckerRing);
   add("lamp with a normal", kNative, grey(ground_scene(kNative, {lamp}, size)), kCheckerRing);
+  const Light spot = SpotLight{{2.2, 3, 2.4}, normalize({-2, -3, -2.6}), {50, 40, 30}, 25, 8};
+  add("spot", kNative, grey(ground_scene(kNative, {spot}, size)), kCheckerRing);
   Scene shadows = grey(shadow_scene(kNative, {directional_at(30), point_light({2, 4, 8})}, size));
   shadows.materials[1].highlight = highlight_of(kNative);
   add("shadows of two lights", kNative, shadows, 3);

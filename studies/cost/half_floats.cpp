@@ -201,8 +201,7 @@ Variant measured_case(const HalfCase& one, LobeAngle angle) {
                              half_errors(one.form, angle, one.lobe, n, one.subnormals).all);
   const OperationCount count =
       one.form == HalfForm::kTextbook ? textbook_operations(one.lobe) : operations(one.lobe);
-  made.count =
-      count.multiply + count.add + count.divide + count.root + count.transcendental + count.compare;
+  made.count = price(count);
   made.facts.emplace().operations = operations_record(count);
   return made;
 }
@@ -234,7 +233,7 @@ Table half_float_table(LobeAngle angle) {
   });
   throw_if_interrupted();
   table.remarks = {
-      "Half floats are emulated, so nothing is timed: operations are those of the lobe alone, each counted once.",
+      "Half floats are emulated, so nothing is timed: operations are those of the lobe alone, by price.",
       fmt::format(
           "Largest of {} random vectors, rounded to half floats first; light and eye are within {:g} degrees "
           "of the normal.",

@@ -197,10 +197,31 @@ Table lobe_table(double exponent, int rounds, bool quick) {
   return table;
 }
 
+std::vector<Times> value_times(const std::vector<TimedLobe>& lobes) {
+  constexpr int kRounds = 31;
+  std::vector<LobeCase> cases;
+  std::vector<std::function<void()>> works;
+  for (const TimedLobe& timed : lobes) {
+    const auto p = std::make_shared<Points>(timed.exponent);
+    cases.push_back(repeated(p, [timed, p] {
+      if (timed.wide)
+        lobe_lanes(timed.lobe, timed.exponent, kPoints, p->s, p->value);
+      else
+        lobe_lanes(timed.lobe, timed.exponent, kPoints, p->s32, p->value32);
+      keep(p->value);
+    }));
+    works.push_back(cases.back().work);
+  }
+  std::vector<Times> times = interleaved(works, kRounds);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    times[i] = per(times[i], double(kPoints * cases[i].repeats));
+  return times;
+}
+
 std::vector<Table> measure_lobes(const Options& options) {
   const std::vector<double> exponents =
-      options.effort == Effort::kQuick ? std::vector<double>{64, 1024}
-                                       : std::vector<double>{16, 64, 128, 256, 1024, 65536, 1e6};
+      options.effort == Effort::kQuick ? std::vector<double>{64, 100.5}
+                                       : std::vector<double>{16, 64, 100.5, 256, 1024, 65536, 1e6};
   std::vector<Table> tables;
   for (const double exponent : exponents) {
     options.progress(fmt::format("n = {}", exponent_text(exponent)));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/system/timing.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/operation_count.hpp"
 
@@ -37,6 +38,15 @@ std::vector<LobeVariant> lobe_variants(double exponent);
 /// The catalogue's lobe by SIMD registers.
 void lobe_lanes(LobeId lobe, double exponent, std::size_t count, const float* s, float* value);
 void lobe_lanes(LobeId lobe, double exponent, std::size_t count, const double* s, double* value);
+
+struct TimedLobe {
+  LobeId lobe;
+  double exponent;
+  bool wide;  ///< in float64, else in float32
+};
+/// Seconds for one value of each lobe by SIMD registers, on one thread, in interleaved rounds, for numbers that the cache
+/// holds.
+std::vector<Times> value_times(const std::vector<TimedLobe>& lobes);
 
 /// cos^n by binary powering of 1 - s, n a whole number from 1 to 2^31.
 void squaring_lanes(unsigned n, std::size_t count, const float* s, float* value);

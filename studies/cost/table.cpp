@@ -73,13 +73,42 @@ std::string one_table_text(const Table& table, bool all) {
     }
     row.push_back(on);
   }
+  std::string text;
+  for (const auto& [id, front] : table.fronts)
+    if (front.answers && !front.answers->empty()) {
+      text = fmt::format("\n{}, {}\n", table.title,
+                         table.errors[0].id == id ? "in short:" : "by " + id + ":");
+      for (const std::string& answer : *front.answers) text += "  " + answer + "\n";
+      break;
+    }
   shown.fit();
   if (!all) std::erase_if(shown.rows, [](const auto& row) { return row.back().text.empty(); });
   if (!table.fronts.empty())
     for (const std::string& sentence : table.fronts[0].second.in_words)
       if (all || sentence.starts_with("from ")) shown.remarks.push_back(sentence);
   shown.remarks.insert(shown.remarks.end(), table.remarks.begin(), table.remarks.end());
-  return table_text(shown);
+  return text + table_text(shown);
+}
+
+ErrorTimes error_times(const Table& table, std::size_t error) {
+  const std::string& id = table.errors[error].id;
+  ErrorTimes times{
+      table.id + "-" + id,         table.title, table.per, is_timed(table) ? "" : table.unit,
+      table.errors[error].meaning, {}};
+  for (const Variant& variant : table.variants) {
+    const records::MeasuredRounds cost = cost_of(variant);
+    const double* spread = value_of(variant.error_spreads, table, error);
+    const double value = variant.errors[error].second;
+    times.points.push_back(
+        {variant.name,
+         fmt::format("{}: {}, {} {:.3g}", variant.name,
+                     is_timed(table) ? short_time_text(cost.median)
+                                     : fmt::format("{:.6g} {}", cost.median, table.unit),
+                     id, value),
+         cost.median, cost.spread * cost.median, value, spread ? *spread : 0,
+         on_front(table, error, variant)});
+  }
+  return times;
 }
 
 }  // namespace
@@ -153,8 +182,15 @@ records::CostFront pareto_front(const Table& table, std::size_t error) {
 }
 
 void add_fronts(Table& table) {
-  for (std::size_t e = 0; e < table.errors.size(); ++e)
+  for (std::size_t e = 0; e < table.errors.size(); ++e) {
     table.fronts.emplace_back(table.errors[e].id, pareto_front(table, e));
+    if (!table.errors[e].meaning.ends_with("of the peak")) continue;
+    ErrorTimes times = error_times(table, e);
+    for (std::size_t i = 0; i < table.variants.size(); ++i)
+      if (const double* most = value_of(table.variants[i].errors_at_most, table, e))
+        times.points[i].error = *most;
+    table.fronts.back().second.answers = answers(times);
+  }
 }
 
 std::string cost_csv(const records::Cost& report) {
@@ -188,24 +224,7 @@ std::string cost_text(const records::Cost& report, bool all) {
 }
 
 std::string cost_chart(const Table& table, std::size_t error) {
-  const std::string& id = table.errors[error].id;
-  ErrorTimes times{
-      table.id + "-" + id,         table.title, table.per, is_timed(table) ? "" : table.unit,
-      table.errors[error].meaning, {}};
-  for (const Variant& variant : table.variants) {
-    const records::MeasuredRounds cost = cost_of(variant);
-    const double* spread = value_of(variant.error_spreads, table, error);
-    const double value = variant.errors[error].second;
-    times.points.push_back(
-        {variant.name,
-         fmt::format("{}: {}, {} {:.3g}", variant.name,
-                     is_timed(table) ? short_time_text(cost.median)
-                                     : fmt::format("{:.6g} {}", cost.median, table.unit),
-                     id, value),
-         cost.median, cost.spread * cost.median, value, spread ? *spread : 0,
-         on_front(table, error, variant)});
-  }
-  return draw_chart_file(error_time_chart(times));
+  return draw_chart_file(error_time_chart(error_times(table, error)));
 }
 
 void write_cost(const records::Cost& report, const std::filesystem::path& directory) {

@@ -57,8 +57,10 @@ double end_of(double v, double value) {
 
 /// t^j v^r in units in which both are about 1.
 constexpr double kUnitT = 10;
+/// The power of t in the term of a coefficient.
+int power_of_t(const Shape& shape, int index) { return index % shape.terms() + shape.first(); }
 double term(const Shape& shape, const Range& range, const Point& p, int index) {
-  const int j = index % shape.degree + 1, r = index / shape.degree;
+  const int j = power_of_t(shape, index), r = index / shape.terms();
   return std::pow(p.t / kUnitT, j) * std::pow(range.v_max() > 0 ? p.v / range.v_max() : 0, r);
 }
 
@@ -126,9 +128,9 @@ Program deepest(const Shape& shape, const Range& range, const std::vector<Point>
   }
   // A lobe never rises.
   for (const Point& p : points)
-    if (slope > 0 && is_seen(shape, p, error))
-      add([&](int k) { return (k % shape.degree + 1) * term(shape, range, p, k) * kUnitT / p.t; },
-          0, -slope);
+    if (slope > 0 && p.t > 0 && is_seen(shape, p, error))
+      add([&](int k) { return power_of_t(shape, k) * term(shape, range, p, k) * kUnitT / p.t; }, 0,
+          -slope);
   for (const double v : exponents_of(range, kExponents)) {
     // A clamped polynomial must not reach 0 before the target has fallen to the error.
     if (shape.outer == Outer::kClamp)
@@ -137,7 +139,7 @@ Program deepest(const Shape& shape, const Range& range, const std::vector<Point>
     if (v * kLongest < 1)
       add(
           [&](int k) {
-            return k % shape.degree + 1 == shape.degree ? term(shape, range, {kUnitT, v}, k) : 0;
+            return power_of_t(shape, k) == shape.degree ? term(shape, range, {kUnitT, v}, k) : 0;
           },
           0, -kLeastLeading);
   }
@@ -154,13 +156,17 @@ Program deepest(const Shape& shape, const Range& range, const std::vector<Point>
   return result;
 }
 
+/// A coefficient in the units of term() that is only the solver's rounding.
+constexpr double kNoTerm = 1e-12;
+
 /// With 10 digits.
 Lobe in_units(const Shape& shape, const Range& range, const Program& program) {
   Lobe lobe{shape, program.c};
   for (int i = 0; i < shape.coefficients(); ++i) {
     const double unit =
-        std::pow(kUnitT, i % shape.degree + 1) * std::pow(range.v_max(), i / shape.degree);
+        std::pow(kUnitT, power_of_t(shape, i)) * std::pow(range.v_max(), i / shape.terms());
     double& c = lobe.c[std::size_t(i)];
+    if (std::abs(c) < kNoTerm) c = 0;
     c = std::strtod(fmt::format("{:.9e}", c / unit).c_str(), nullptr);
   }
   return lobe;
@@ -232,6 +238,7 @@ std::vector<Point> peaks(const Lobe& lobe, const Range& range, double most) {
       before = here, here = next;
     }
     if (flat) found.push_back(*flat);
+    if (lobe.shape.free_peak) found.push_back({0, v});
   }
   return found;
 }
@@ -246,10 +253,10 @@ bool annihilate(const Shape& shape, std::vector<Touch>& touches) {
   // Rows: every term, and the sum of the weights.
   std::vector<std::vector<Exact>> rows;
   for (int r = 0; r <= shape.by_n; ++r)
-    for (int j = 1; j <= shape.degree; ++j) {
+    for (int j = shape.first(); j <= shape.degree; ++j) {
       std::vector<Exact> row;
       for (const Touch& touch : touches)
-        row.push_back((touch.error > 0 ? 1 : -1) * pow(Exact(touch.t), j) *
+        row.push_back((touch.error > 0 ? 1 : -1) * (j == 0 ? Exact(1) : pow(Exact(touch.t), j)) *
                       (r == 0 ? Exact(1) : pow(Exact(touch.v), r)));
       row.emplace_back(0);
       rows.push_back(std::move(row));
@@ -299,7 +306,7 @@ Minimax exchange(const Shape& shape, const Range& range, double slope) {
   std::vector<Point> points;
   for (const double v : exponents_of(range, 5)) {
     const double end = v > 0 ? std::min(kLongest, 1 / v) : kLongest;
-    for (int i = 1; i <= 60; ++i)
+    for (int i = shape.first(); i <= 60; ++i)
       if (const double t = end * std::pow(i / 60.0, 1.5); t * v < 1) points.push_back({t, v});
     for (double t = kLongest; t < kBeyond && t * v < 1; t *= 1.5) points.push_back({t, v});
   }
@@ -321,7 +328,7 @@ Minimax exchange(const Shape& shape, const Range& range, double slope) {
     bool falls = true;
     for (const Point& p : peaks(lobe, range, error)) {
       const double there = std::abs(lobe.value(p.t, p.v) - cosine_power(p.t, p.v));
-      const bool rises = slope > 0 && is_seen(shape, p, error) && slope_of(lobe, p) >= 0;
+      const bool rises = slope > 0 && p.t > 0 && is_seen(shape, p, error) && slope_of(lobe, p) >= 0;
       most = std::max(most, there);
       falls = falls && !rises;
       if (there > error * (1 + 1e-6) || rises) points.push_back(p);

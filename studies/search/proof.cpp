@@ -133,16 +133,16 @@ Jet inside(const Lobe& lobe, const Box& box) {
   for (int r = by_n; r >= 0; --r) {
     // The factor of dv^r as a polynomial of t, then of dt.
     std::array<Interval, kMostDegree + 1> series;
-    series[0] = r == 0 ? lobe.shape.start() : 0;
-    for (int j = 1; j <= degree; ++j) {
+    series[0] = 0;
+    for (int j = lobe.shape.first(); j <= degree; ++j) {
       Interval factor(0);
       for (int k = by_n; k >= r; --k)
-        factor = factor * v +
-                 Interval(lobe.c[std::size_t(k * degree + j - 1)]) * (r == 0   ? 1.0
-                                                                      : r == 1 ? double(k)
-                                                                               : k * (k - 1) / 2.0);
+        factor = factor * v + Interval(lobe.factor(j, k)) * (r == 0   ? 1.0
+                                                             : r == 1 ? double(k)
+                                                                      : k * (k - 1) / 2.0);
       series[std::size_t(j)] = factor;
     }
+    if (r == 0) series[0] += lobe.shape.start();
     for (int first = 0; first < degree; ++first)
       for (int j = degree - 1; j >= first; --j)
         series[std::size_t(j)] += series[std::size_t(j) + 1] * t;

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "base/words/error_time_chart.hpp"
+#include "base/words/numbers.hpp"
+
 #include "studies/search/search.hpp"
 #include "studies/table.hpp"
 
@@ -20,7 +23,7 @@ std::string error_text(double error) { return fmt::format("{:.4g}", error); }
 
 std::string price_text(const records::SearchedLobe& lobe) {
   return fmt::format("{} operations{}", lobe.price,
-                     lobe.operations.divisions > 0 ? ", a division counted as six" : "");
+                     lobe.operations.divide > 0 ? ", a division counted as six" : "");
 }
 
 std::string certificate_text(const records::SearchedLobe& lobe) {
@@ -39,12 +42,20 @@ std::string certificate_text(const records::SearchedLobe& lobe) {
 
 /// The lobe that was asked for, or else the best that there is.
 std::string answer(const records::LobeSearch& found, const Request& request) {
-  if (!request.error && !request.price) return "";
+  if (!request.error && !request.price) {
+    std::string text;
+    for (const std::string& sentence : found.answers) text += sentence + "\n";
+    return text + "Code: the same with --error, or lobelia export.\n\n";
+  }
   const auto chosen = std::ranges::find(found.lobes, found.chosen, &records::SearchedLobe::name);
   if (chosen != found.lobes.end()) {
+    const bool of_peak = found.metric == "max";
+    const double error = error_of(*chosen, found.metric);
     std::string text =
-        fmt::format("{}, {}: {} = {}\n  {}\n", chosen->name, price_text(*chosen), found.metric,
-                    error_text(error_of(*chosen, found.metric)), chosen->formula);
+        fmt::format("Use {}, {} a value, {}: {} = {}{}.\n\n{}\n", chosen->name,
+                    short_time_text(chosen->seconds.median), price_text(*chosen), found.metric,
+                    error_text(error), of_peak ? " (" + percent_text(error) + " of the peak)" : "",
+                    chosen->code);
     for (const records::SearchedLobe& lobe : found.lobes)
       if (request.error && found.metric == "max" && lobe.price < chosen->price &&
           lobe.lower_bound.value_or(1) <= *request.error)
@@ -61,7 +72,7 @@ std::string answer(const records::LobeSearch& found, const Request& request) {
   // The best of the lobes that were searched, without the paper's and Schlick's.
   const records::SearchedLobe* best = nullptr;
   for (const records::SearchedLobe& lobe : found.lobes)
-    if (lobe.bound && lobe.name[1] == 'k' &&
+    if (lobe.bound && !lobe.name.starts_with("cs") &&
         (!best || error_of(lobe, found.metric) < error_of(*best, found.metric)))
       best = &lobe;
   if (!best)

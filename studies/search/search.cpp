@@ -9,9 +9,10 @@
 
 #include "base/pictures/half.hpp"
 #include "base/system/error.hpp"
+#include "base/words/error_time_chart.hpp"
 #include "base/words/text.hpp"
 #include "compare/metrics/ciede2000.hpp"
-#include "renderer/highlight.hpp"
+#include "renderer/catalogue_record.hpp"
 #include "studies/search/minimax.hpp"
 
 namespace lobelia::search {
@@ -49,7 +50,7 @@ double rounded_value(const Lobe& lobe, const std::function<double(double)>& roun
   double y = rounded(lobe.coefficient(lobe.shape.degree, v));
   for (int j = lobe.shape.degree - 1; j >= 1; --j)
     y = rounded(y * t + rounded(lobe.coefficient(j, v)));
-  y = rounded(y * t + lobe.shape.start());
+  y = rounded(y * t + rounded(lobe.constant(v)));
   double value = rounded(outer_value({lobe.shape.outer, lobe.shape.degree, 0, 0}, y));
   for (int i = 0; i < lobe.shape.squarings; ++i) value = rounded(value * value);
   return value;
@@ -86,12 +87,13 @@ void measure(records::SearchedLobe& record, const Range& range,
 
 records::SearchedLobe record_of(const Minimax& best, const Request& request, std::string name) {
   const Shape& shape = best.lobe.shape;
-  const Operations count = operations(shape);
+  const OperationCount count = operations(shape);
   records::SearchedLobe record;
   record.name = std::move(name);
   record.formula = best.lobe.formula();
-  record.operations = {count.multiply_adds, count.multiplies, count.others, count.divisions};
-  record.price = count.price();
+  if (record.name == search::name(shape)) record.code = best.lobe.code("lobe");
+  record.operations = operations_record(count);
+  record.price = int(price(count));
   record.degree = shape.degree;
   record.squarings = shape.squarings;
   record.by_exponent = shape.by_n;
@@ -119,9 +121,8 @@ records::SearchedLobe schlick_record(const Request& request) {
   const LobeId id = *find_lobe("schlick");
   record.name = "schlick";
   record.formula = info(id).formula;
-  const Operations count{1, 0, 1, 1};
-  record.operations = {count.multiply_adds, count.multiplies, count.others, count.divisions};
-  record.price = count.price();
+  record.operations = operations_record(operations(id));
+  record.price = int(price(id));
   measure(
       record, request.range,
       [&](double t, double v) { return lobe_value(id, std::min(1.0, t * v), 1 / v); },
@@ -130,10 +131,11 @@ records::SearchedLobe schlick_record(const Request& request) {
 }
 
 Lobe lobe_of(const records::SearchedLobe& record) {
-  const Outer outer = record.name.starts_with("rk")   ? Outer::kReciprocal
-                      : record.name.starts_with("bk") ? Outer::kBits
-                                                      : Outer::kClamp;
-  return {{outer, record.degree, record.squarings, record.by_exponent}, record.coefficients};
+  const Outer outer = record.name[0] == 'r'   ? Outer::kReciprocal
+                      : record.name[0] == 'b' ? Outer::kBits
+                                              : Outer::kClamp;
+  return {{outer, record.degree, record.squarings, record.by_exponent, record.name[1] == 'f'},
+          record.coefficients};
 }
 
 /// The best of a shape, with no more terms in 1/n than help.
@@ -220,15 +222,16 @@ records::LobeSearch search(const Request& request) {
   found.precision = request.rounding.name;
   found.coefficients = request.by_n ? "by-n" : "constant";
   found.family = request.family;
-  std::vector<Shape> all = shapes(most_price(request));
-  if (request.family != "all")
+  const bool free_peak = request.family == "free";
+  std::vector<Shape> all = shapes(most_price(request), free_peak);
+  if (request.family != "all" && !free_peak)
     std::erase_if(all, [&](const Shape& s) { return !name(s).starts_with(request.family); });
-  int price = 0;
+  int dearest = 0;
   bool is_enough = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const int next = operations(all[i]).price();
-    if (is_enough && next > price) break;
-    price = next;
+    const int next = int(price(operations(all[i])));
+    if (is_enough && next > dearest) break;
+    dearest = next;
     if (request.on_progress) request.on_progress(double(i) / double(all.size()), name(all[i]));
     auto best = best_of(all[i], request);
     if (!best) {
@@ -276,9 +279,22 @@ records::LobeSearch search(const Request& request) {
   const std::vector<Times> times = times_of(lobes, *find_lobe("schlick"));
   for (std::size_t i = 0; i < times.size(); ++i)
     found.lobes[i].seconds = {times[i].median, times[i].spread};
-  const int most = is_enough ? price : most_price(request);
-  std::erase_if(found.lobes, [&](const records::SearchedLobe& lobe) { return lobe.price > most; });
+  const int most = is_enough ? dearest : most_price(request);
+  // Of all prices Schlick's is shown, which has no bound.
+  const bool asked = request.error || request.price;
+  std::erase_if(found.lobes, [&](const records::SearchedLobe& lobe) {
+    return lobe.price > most && (asked || lobe.bound);
+  });
   std::ranges::stable_sort(found.lobes, {}, &records::SearchedLobe::price);
+  ErrorTimes prices;
+  prices.cost_unit = "operations";
+  for (const records::SearchedLobe& lobe : found.lobes) {
+    TimedError& point = prices.points.emplace_back();
+    point.name = fmt::format("{}, {} a value", lobe.name, short_time_text(lobe.seconds.median));
+    point.cost = lobe.price;
+    point.error = lobe.errors.max + lobe.errors.rounding;
+  }
+  found.answers = answers(prices);
   return found;
 }
 

@@ -80,7 +80,7 @@ namespace search {
 void evaluate(const Lobe& lobe, double n, std::size_t count, const float* s, float* value) {
   const double bits = lobe.shape.outer == Outer::kBits ? 0x1p23 : 1;
   const double bias = lobe.shape.outer == Outer::kBits ? 127 : 0;
-  float c[kMostDegree + 1] = {float(bits * (bias + lobe.shape.start()))};
+  float c[kMostDegree + 1] = {float(bits * (bias + lobe.constant(1 / n)))};
   double scale = bits;
   for (int j = 1; j <= lobe.shape.degree; ++j)
     c[j] = float((scale *= n) * lobe.coefficient(j, 1 / n));

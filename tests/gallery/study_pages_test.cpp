@@ -51,6 +51,7 @@ records::Cost cost_record() {
   table.fronts = {{"max",
                    {{"cs16", "cosine"},
                     {},
+                    {},
                     {"from cs16 to cosine: 2.0 times the time, 170000 times less error"},
                     "lobe-n64-max.svg"}}};
   table.remarks = {"a remark & more"};
@@ -139,7 +140,7 @@ TEST_F(CostPage, HasNoChartForOnePoint) {
   variants.resize(1);
   variants[0].seconds->rounds = 1;
   variants[0].seconds->spread = 0;
-  record.tables[0].fronts = {{"max", {{"cs16"}, {}, {}, "x.svg"}}};
+  record.tables[0].fronts = {{"max", {{"cs16"}, {}, {}, {}, "x.svg"}}};
   const std::string text = put(record);
   EXPECT_EQ(Site(farm_.directory()).page("cost.html").select_nodes("//svg").size(), 0u);
   EXPECT_THAT(text, HasSubstr("Only “cs16” was measured"));

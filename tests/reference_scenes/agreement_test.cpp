@@ -154,6 +154,7 @@ TEST_P(Agreement, HoldsInAllUnitsOfTheScene) {
 
 TEST_P(Agreement, HoldsForPlanesCheckersAndLampsWithACosine) {
   const Light lamp = PointLight{{2.2, 3, 2.4}, {25, 20, 15}, normalize({-1, -1, -1})};
+  const Light spot = SpotLight{{2.2, 3, 2.4}, normalize({-2, -3, -2.6}), {50, 40, 30}, 25, 8};
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models()) {
     Scene scene = ground_scene({model.name, "cosine", "exact", 30}, {directional_at(50), lamp}, 64);
@@ -161,6 +162,9 @@ TEST_P(Agreement, HoldsForPlanesCheckersAndLampsWithACosine) {
     scene.camera.principal_point_offset_x = 0.05;
     scenes.push_back({std::string(model.name), scene});
   }
+  for (const char* model : {"phong_rdf", "modified_blinn_phong"})
+    scenes.push_back({fmt::format("{} under a spot", model),
+                      ground_scene({model, "cosine", "exact", 30}, {spot}, 64)});
   scenes.push_back({"grey", mirror_scene({"phong_rdf", "cosine", "exact", 30}, {lamp}, 64)});
   scenes.back().scene.depth.mirror = 0;
   expect_agreement(scenes, 3 + kCheckerOutliers);

@@ -33,6 +33,8 @@ Scene sayable(Scene scene) {
     return is_environment(light) && std::exchange(environment, true);
   });
   for (Light& any : scene.lights) {
+    if (const auto* spot = std::get_if<SpotLight>(&any))
+      any = PointLight{spot->position, spot->intensity};
     if (auto* point = std::get_if<PointLight>(&any)) point->normal = {};
     if (auto* sky = std::get_if<EnvmapLight>(&any)) sky->radiance = sky->radiance.r * Rgb{1, 1, 1};
   }

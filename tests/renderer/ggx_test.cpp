@@ -1,10 +1,13 @@
 // The laws of GGX: its shadowing is the textbook's, light is not directed one way, and none of it loses digits.
+#include <fmt/format.h>
 #include <boost/math/constants/constants.hpp>
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "renderer/fresnel.hpp"
 #include "renderer/ggx.hpp"
 #include "renderer/reflector.hpp"
+#include "renderer/scene/scene_io.hpp"
 #include "tests/renderer/laws/directions.hpp"
 #include "tests/test.hpp"
 
@@ -52,6 +55,33 @@ TEST(GgxDistribution, LosesNoDigitsWhereTheTextbookFormulaLosesAll) {
   EXPECT_GT(largest_error<float>(
                 [](float alpha, float s) { return textbook_distribution<float>(alpha, 1 - s); }),
             0.99);
+}
+
+TEST(GgxMaterial, IsTheTextbookFormulaByItsRoughness) {
+  std::mt19937_64 random(14);
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 200; ++i) {
+    const double roughness = std::pow(10, -1.9 * uniform(random));
+    const Scene scene = parse_scene(
+        fmt::format("<scene version=\"1\"><sensor type=\"perspective\"><float name=\"fov\" "
+                    "value=\"28\"/><transform name=\"to_world\"><lookat origin=\"0,0,5\" "
+                    "target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor><bsdf id=\"m\" "
+                    "type=\"ggx\"><float name=\"{}\" value=\"{}\"/></bsdf></scene>",
+                    i % 2 ? "alpha" : "roughness", i % 2 ? roughness * roughness : roughness),
+        "ggx", "");
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.fresnel, Fresnel::kSchlick);
+    const Vec3 n{0, 0, 1},
+        l = normalize({uniform(random), 0.3, 0.05 + uniform(random)}),
+        v = normalize({-uniform(random), uniform(random), 0.05 + uniform(random)});
+    const Vec3 h = normalize(l + v);
+    const Big alpha = Big(roughness) * roughness;
+    const Big truth =
+        textbook_distribution<Big>(alpha, dot(n, h)) * textbook_visibility(alpha, l.z, v.z) * l.z;
+    const double ours = highlight_radiance(material.highlight, l.z, v.z, dot(n - h, n - h) / 2);
+    // An exponent of 0 is not reached where alpha is 1.
+    EXPECT_NEAR(double(ours / truth), 1, roughness > 0.95 ? 1e-3 : 1e-9) << roughness;
+  }
 }
 
 TEST(GgxVisibility, IsTheTextbookFormulaAndTheSameBothWays) {

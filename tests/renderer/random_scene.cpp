@@ -75,6 +75,11 @@ Light light(Random& random, const Scene& scene, SceneKind kind, bool simple) {
   const Vec3 place = on_a_surface ? on_surface(random, scene) : 4 * random.vector();
   const int which = random.below(simple && kind == SceneKind::kExact ? 6 : 10);
   if (which < 3) return DirectionalLight{random.direction(), strength(random)};
+  if (which == 5 && !simple) {
+    const double cutoff = random.between(1, 90);
+    return SpotLight{place, random.direction(), strength(random), cutoff,
+                     cutoff * random.between(0, 0.99)};
+  }
   if (which < 6)
     return PointLight{place, strength(random),
                       !simple && random.chance(0.3) ? random.direction() : Vec3{}};

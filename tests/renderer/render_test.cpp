@@ -8,6 +8,7 @@
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/renderer/random_scene.hpp"
 #include "tests/renderer/simple_scenes.hpp"
 #include "tests/test.hpp"
 
@@ -256,6 +257,29 @@ TEST(Remarks, ExplainACameraOnASphere) {
     EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("on sphere 0"))) << i;
     EXPECT_EQ(brightest(scene), 0) << i;
   }
+}
+
+TEST(Remarks, NameALightThatFacesAwayFromEverything) {
+  Random random(64);
+  int away = 0;
+  for (int k = 0; k < 300; ++k) {
+    Scene scene = canonical_scene("two_spheres");
+    scene.film.width = scene.film.height = 24;
+    const Vec3 place = 5 * random.direction(), towards = random.direction();
+    const double cutoff = random.between(1, 90);
+    if (k % 2)
+      scene.lights = {SpotLight{place, towards, {100, 100, 100}, cutoff, cutoff / 2}};
+    else
+      scene.lights = {PointLight{place, {100, 100, 100}, towards}};
+    for (Material& material : scene.materials) material.diffuse_reflectance = {1, 1, 1};
+    const std::vector<std::string> found = remarks(scene);
+    if (found.empty()) continue;
+    ++away;
+    EXPECT_THAT(found, ElementsAre(HasSubstr("light 0 faces away from every shape")));
+    EXPECT_EQ(brightest(scene), 0) << k;
+  }
+  EXPECT_GT(away, 50);
+  EXPECT_LT(away, 250);
 }
 
 TEST(Remarks, AreFewWhateverTheNumberOfSpheres) {

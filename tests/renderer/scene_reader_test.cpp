@@ -66,7 +66,7 @@ TEST(SceneReader, ExplainsEveryError) {
       {scene(emitter + "0,0,0\"/></emitter>"),
        "s.xml:3:2: direction is zero; allowed: any other vector"},
       {scene("<emitter type=\"directionl\"/>"),
-       "s.xml:3:16: unknown emitter type 'directionl'; allowed: directional, point, sphere, "
+       "s.xml:3:16: unknown emitter type 'directionl'; allowed: directional, point, spot, sphere, "
        "rectangle, constant, envmap; did you mean 'directional'?"},
       {scene("<shpae/>"),
        "s.xml:3:2: unknown element <shpae> in <scene>; allowed: sensor, emitter, bsdf, shape, "

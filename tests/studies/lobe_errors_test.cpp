@@ -260,7 +260,7 @@ TEST(LobeLevel, HasATableForEachExponent) {
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);
   ASSERT_EQ(tables.size(), 4u);
-  EXPECT_EQ(tables[1].id, "lobe-n1024");
+  EXPECT_EQ(tables[1].id, "lobe-n100.5");
   EXPECT_EQ(tables[2].id, "lobe-float16-half");
   EXPECT_EQ(tables[3].id, "lobe-float16-mirror");
   for (const Table& table : {tables[2], tables[3]}) {

@@ -6,6 +6,7 @@
 #include "base/system/error.hpp"
 #include "renderer/export/export.hpp"
 #include "renderer/export/names.hpp"
+#include "studies/search/minimax.hpp"
 #include "studies/shader_check/annotation.hpp"
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/explain.hpp"
@@ -72,6 +73,31 @@ TEST_F(ShaderCheck, FindsEveryPlantedMistakeByName) {
         << planted.what << ": " << check.record.explanation->sentence;
     EXPECT_THAT(check.record.explanation->sentence, HasSubstr(planted.words)) << planted.what;
     EXPECT_TRUE(check.record.explanation->complete) << planted.what;
+  }
+}
+
+TEST_F(ShaderCheck, FindsTheCodeOfASearchedLobeWithinItsBound) {
+  using search::Outer, search::Shape;
+  const search::Range range{16, 256};
+  for (const Shape& shape : {Shape{Outer::kClamp, 3, 2, 1}, Shape{Outer::kReciprocal, 2, 1, 1},
+                             Shape{Outer::kBits, 1, 0, 1}, Shape{Outer::kClamp, 3, 2, 1, true},
+                             Shape{Outer::kBits, 2, 0, 2, true}}) {
+    const search::Lobe lobe = search::minimax(shape, range).lobe;
+    ASSERT_FALSE(lobe.c.empty());
+    shader_check::Request request = request_of("phong_rdf", "");
+    request.text = "#version 420\n" + lobe.code("lobe") + R"(
+float highlight(vec3 N, vec3 V, vec3 L, float n) {
+  vec3 off = reflect(-V, N) - L;
+  return dot(N, L) > 0.0 ? (n + 1.0) / 6.28318530718 * lobe(0.5 * dot(off, off), n) : 0.0;
+})";
+    request.exponents = {16, 64, 256};
+    const Check check = shader_check::check_shader(request);
+    const double bound = search::prove(lobe, range).bound;
+    double most = 0;
+    for (const records::ShaderError& error : check.record.errors)
+      most = std::max(most, error.max_of_peak);
+    EXPECT_LE(most, bound + 1e-5) << name(shape);
+    EXPECT_GE(most, 0.5 * bound) << name(shape);
   }
 }
 

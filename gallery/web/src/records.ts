@@ -289,12 +289,16 @@ export interface TableErrors {
 
 /** Operations per point. What depends on the exponent alone is computed once. */
 export interface Operations {
+  multiplyAdd: number;
   multiply: number;
   add: number;
   divide: number;
   root: number;
   transcendental: number;
+  /** comparisons, maxima and conversions */
   compare: number;
+  /** of all, in multiplications of float32: a division counts as six */
+  price: number;
 }
 
 /** A model, for the explorer. */
@@ -305,7 +309,7 @@ export interface ModelTable {
   appliesCosine: boolean;
   hasShadowing: boolean;
   normalised: string;
-  coefficient: string;
+  normalisationConstant: string;
   operations: Operations;
   sMax: number;
   /** 1 / coefficient is the integral of lobe(s) (w0 + w1 s + w2 s^2 + w3 s^3), s = 0 to sMax */

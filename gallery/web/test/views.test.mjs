@@ -91,7 +91,7 @@ test('explorer: says what the library says, from a link', async () => {
   const page = await view('explorer', '#model=blinn_phong_rdf&lobe=cs16&norm=paper&n=37.3&two=0');
   const row = (title) => page.locator('.explorer-numbers tr', { hasText: title }).locator('td').first().textContent();
   const near = (text, value, share) => assert.ok(Math.abs(parseFloat(text) / value - 1) < share, `${text}, not ${value}`);
-  near(await row('Coefficient'), highlight.coefficient, 1e-3);
+  near(await row('Coefficient, of the radiance'), highlight.coefficient, 1e-3);
   near(await row('Energy at normal incidence'), highlight.energyAtNormalIncidence, 2e-3);
   near(await row('Most of a beam'), highlight.albedoOfLight.largest, 4e-3);
   near(await row('Half-width'), models.lobes.find((l) => l.name === 'cs16').halfWidthDegrees, 1e-3);

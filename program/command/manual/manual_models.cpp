@@ -23,7 +23,7 @@ For anyone who needs the formula of a highlight. Every model and lobe of the cat
 `lobelia models` prints the same with costs and measurements, at any exponent. [Conventions](conventions.md) defines directions
 and units, [the paper's formulas](paper.md) shows what the paper prints.
 
-A highlight is a lobe $\ell(s)$ times a coefficient $C$. The lobe is 1 in the middle of the highlight and 0 for $s \ge 1$.
+A highlight is a lobe $\ell(s)$ times a constant $C$. The lobe is 1 in the middle of the highlight and 0 for $s \ge 1$.
 
 - $s$ is 1 minus the cosine of the lobe's angle. In the Phong family, $s = 1 - L \cdot R$. In the Blinn family, $s = 1 - N \cdot H$.
 - $n$ is the exponent.
@@ -31,8 +31,9 @@ A highlight is a lobe $\ell(s)$ times a coefficient $C$. The lobe is 1 in the mi
 
 ## Models
 
-Each model states an integral. Its exact coefficient makes that integral 1, for any lobe. It is computed from the moments of
-the lobe, $M_j = \int_0^S \ell(s)\, s^j\, ds$. The normalisation `paper` has the coefficient that the paper prints, misprints
+Each model states an integral. Its exact *normalisation constant* $C$ makes that integral 1, for any lobe. It is computed from
+the moments of the lobe, $M_j = \int_0^S \ell(s)\, s^j\, ds$. The *coefficient* is the whole factor of the lobe in $L_o$: a quarter
+of $C$ where the lobe is a distribution of normals, else $C$. The normalisation `paper` has the constant that the paper prints, misprints
 included ([the paper's formulas](paper.md#coefficients)).
 
 The charts show what becomes of energy at other angles. *Eye* is the radiance towards an eye at this angle, under a uniform sky
@@ -127,7 +128,7 @@ std::string_view conserved(NormalisedQuantity quantity) {
 }
 
 /// "1/(2 pi (M0 - M1)), s = 0 to 1".
-std::string exact_coefficient(ModelId id) {
+std::string exact_constant(ModelId id) {
   const std::string text = exact_formula(id);
   const std::string_view to = ", s = 0 to ";
   const std::size_t at = text.find(to);
@@ -150,7 +151,7 @@ std::string measured(ModelId id) {
 
 std::string section(ModelId id, Files& files) {
   const ModelInfo& model = info(id);
-  const CoefficientFormulas coefficients = formulas(id);
+  const ConstantFormulas coefficients = formulas(id);
   std::string text =
       fmt::format("\n### {}\n\n`{}`. The lobe's angle is that of {}.\n\n", model.title, model.name,
                   model.angle == LobeAngle::kReflection ? "L from R, the mirror direction of V"
@@ -159,10 +160,10 @@ std::string section(ModelId id, Files& files) {
   if (model.has_shadowing)
     text += "\n$G$ is Smith's shadowing and masking for GGX, with $\\alpha^2 = 2 / (n + 2)$.\n";
   text += fmt::format("\n*Conserves*: {} {}\n", conserved(model.normalised), measured(id));
-  text += display(integral(model)) + "\n*Coefficient of any lobe*:\n\n" +
-          display(exact_coefficient(id));
+  text += display(integral(model)) + "\n*Normalisation constant of any lobe*:\n\n" +
+          display(exact_constant(id));
   text += fmt::format(
-      "\n| lobe | coefficient |\n|---|---|\n| cosine, exact | {} |\n| cosine, as the paper prints it | {} |\n"
+      "\n| lobe | normalisation constant |\n|---|---|\n| cosine, exact | {} |\n| cosine, as the paper prints it | {} |\n"
       "| cs16, as the paper prints it | {} |\n",
       inline_formula(coefficients.exact_cosine), inline_formula(coefficients.paper_cosine),
       inline_formula(coefficients.paper_cs16));

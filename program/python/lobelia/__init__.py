@@ -35,15 +35,17 @@ from ._errors import (
     UsageError,
 )
 from ._errors import Warning as Warning  # not in __all__, where it would hide Python's
-from ._lobes import Lobe, albedo, catalogue, coefficient, lobe, lobes, models, radiance
+from ._lobes import (
+    Lobe, albedo, catalogue, coefficient, lobe, lobes, models, normalisation_constant, radiance,
+)
 from ._record import Comparison, ComparisonSet, Picture, Record
 
 __version__ = _lobelia.version
 __all__ = [
     "Comparison", "ComparisonSet", "EngineError", "Error", "InputError", "InternalError", "Lobe", "NoResourcesError",
     "OutputError", "Picture", "Record", "UsageError", "albedo", "catalogue", "coefficient",
-    "compare", "cost", "engines", "farm", "lobe", "lobes", "models", "profile", "radiance", "read",
-    "reference", "render", "scene_xml", "scenes", "write",
+    "compare", "cost", "engines", "farm", "lobe", "lobes", "models", "normalisation_constant", "profile", "radiance",
+    "read", "reference", "render", "scene_xml", "scenes", "write",
 ]  # fmt: skip
 
 PathLike = Union[str, "os.PathLike[str]"]

@@ -130,7 +130,7 @@ def _highlight(model: str, lobe_: Union[str, Lobe], normalisation: str) -> _lobe
 def coefficient(
     model: str, lobe: Union[str, Lobe], exponent: ArrayLike, normalisation: str = "exact"
 ) -> Any:
-    """The factor in front of the lobe, in radiance per unit irradiance (1/sr). float64, shaped as `exponent`.
+    """The factor of the lobe in radiance per unit irradiance (1/sr). float64, shaped as `exponent`.
 
     `normalisation` is "exact", from the integral, or "paper", as the paper prints it.
 
@@ -140,6 +140,18 @@ def coefficient(
     """
     _refuse_masked(exponent=exponent)
     return _evaluate(_highlight(model, lobe, normalisation).coefficient, n=exponent)
+
+
+def normalisation_constant(
+    model: str, lobe: Union[str, Lobe], exponent: ArrayLike, normalisation: str = "exact"
+) -> Any:
+    """The factor of the lobe that makes the model's integral 1: four times the coefficient for a distribution of normals.
+
+    >>> normalisation_constant("blinn_phong_ndf", "cosine", 64) / coefficient("blinn_phong_ndf", "cosine", 64)
+    4.0
+    """
+    _refuse_masked(exponent=exponent)
+    return _evaluate(_highlight(model, lobe, normalisation).normalisation_constant, n=exponent)
 
 
 def albedo(

@@ -46,10 +46,12 @@ Json light_json(const Lamp& lamp) {
     return {{"kind", "directional"},
             {"direction", json(lamp.direction)},
             {"irradiance", json(lamp.strength)}};
-  return {{"kind", "point"},
-          {"position", json(lamp.position)},
-          {"intensity", json(lamp.strength)},
-          {"normal", json(lamp.normal)}};
+  Json light{{"kind", "point"},
+             {"position", json(lamp.position)},
+             {"intensity", json(lamp.strength)},
+             {"normal", json(lamp.normal)}};
+  if (lamp.spot) light["spot"] = {lamp.spot->least_cosine(), lamp.spot->cosine_step()};
+  return light;
 }
 
 /// A formula as the script reads it: a number, a name, or a list of an operation and its operands.

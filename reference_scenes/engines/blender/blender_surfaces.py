@@ -137,6 +137,12 @@ class Surface(Nodes):
                 towards = self.vector("DOT_PRODUCT", self.to_light,
                                       tuple(-c for c in light["normal"]))
                 self.falloff = self.math("MAXIMUM", towards, 0.0)
+            if "spot" in light:
+                least, step = light["spot"]
+                part = self.math("DIVIDE", self.math("SUBTRACT", towards, least), step)
+                part = self.math("MINIMUM", self.math("MAXIMUM", part, 0.0), 1.0)
+                rest = self.math("SUBTRACT", 3.0, self.math("MULTIPLY", 2.0, part))
+                self.falloff = self.math("MULTIPLY", self.math("MULTIPLY", part, part), rest)
         else:
             # The lamp's direction as Blender has rounded it. Another rounding would not cancel in lobe/N.L * N.L: an error of
             # 2e-4 of the peak where N.L is 1e-3.

@@ -60,6 +60,10 @@ std::string lamp_text(const Lamp& lamp, const Scene& scene, double closeness) {
                        sdl(lamp.strength), sdl(far));
   }
   const double nearest = nearest_surface(lamp, scene, closeness);
+  if (lamp.spot)
+    return fmt::format("Lobelia_Spot_Light({}, {}, {}, {}, {}, {})\n", sdl(lamp.position),
+                       sdl(lamp.normal), sdl(lamp.strength), sdl(nearest), sdl(lamp.spot->beam),
+                       sdl(lamp.spot->cutoff));
   if (lamp.has_normal())
     return fmt::format("Lobelia_Surface_Light({}, {}, {}, {})\n", sdl(lamp.position),
                        sdl(lamp.normal), sdl(lamp.strength), sdl(nearest));

@@ -5,6 +5,7 @@
 #include "renderer/scene/lights/point.hpp"
 #include "renderer/scene/lights/rectangle.hpp"
 #include "renderer/scene/lights/sphere.hpp"
+#include "renderer/scene/lights/spot.hpp"
 
 #ifndef LOBELIA_RENDERER_SCENE_LIGHTS_CATALOGUE_HPP
 #define LOBELIA_RENDERER_SCENE_LIGHTS_CATALOGUE_HPP
@@ -14,8 +15,8 @@
 namespace lobelia {
 
 /// In the order of docs/scene_format.md.
-using Lights =
-    TypeList<DirectionalLight, PointLight, SphereLight, RectangleLight, ConstantLight, EnvmapLight>;
+using Lights = TypeList<DirectionalLight, PointLight, SpotLight, SphereLight, RectangleLight,
+                        ConstantLight, EnvmapLight>;
 
 }  // namespace lobelia
 

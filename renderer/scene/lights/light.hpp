@@ -6,10 +6,13 @@
 // instruction set.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -25,6 +28,21 @@ inline constexpr double kFar = 1e9;        ///< of every coordinate and length
 inline constexpr double kNear = 1e-9;      ///< the least size
 inline constexpr double kBrightest = 1e9;  ///< of every irradiance, intensity and radiance
 
+/// The cone of a spot, in degrees from its middle.
+struct SpotCone {
+  double beam = 0, cutoff = 0;
+  double least_cosine() const { return std::cos(cutoff * kPi / 180); }
+  /// cos(beam) - cos(cutoff), from sines, so that a narrow cone keeps its digits.
+  double cosine_step() const {
+    return 2 * std::sin((cutoff + beam) * kPi / 360) * std::sin((cutoff - beam) * kPi / 360);
+  }
+  /// The share of the intensity at this cosine from the middle: a smooth step.
+  double share(double cosine) const {
+    const double t = std::clamp((cosine - least_cosine()) / cosine_step(), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+  }
+};
+
 /// A light without a size. Every light turns into lamps for the reference engines, the formulas per pixel and the
 /// fused kernels.
 struct Lamp {
@@ -32,7 +50,8 @@ struct Lamp {
   Vec3 position;            ///< of a near lamp
   Vec3 direction;           ///< of the light of a distant lamp, unit length
   Rgb strength;             ///< intensity, or irradiance of a distant lamp
-  Vec3 normal = {};         ///< as PointLight::normal
+  Vec3 normal = {};         ///< as PointLight::normal; the middle of a spot
+  std::optional<SpotCone> spot = {};
 
   bool has_normal() const { return dot(normal, normal) > 0; }
 
@@ -52,7 +71,10 @@ struct Illumination {
 inline Illumination illuminate(const Lamp& lamp, Vec3 point) {
   if (lamp.is_distant) return {-lamp.direction, lamp.strength, kInfinity};
   const Vec3 offset = lamp.position - point, to_light = normalize(offset);
-  const double towards = lamp.has_normal() ? std::max(0.0, -dot(lamp.normal, to_light)) : 1;
+  const double along = -dot(lamp.normal, to_light);
+  const double towards = lamp.spot           ? lamp.spot->share(along)
+                         : lamp.has_normal() ? std::max(0.0, along)
+                                             : 1;
   return {to_light, towards / dot(offset, offset) * lamp.strength, length(offset)};
 }
 

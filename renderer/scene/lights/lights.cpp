@@ -69,6 +69,8 @@ std::optional<Lamp> lamp_of_same_power(const Light& light) {
 
 Light light_of(const Lamp& lamp) {
   if (lamp.is_distant) return DirectionalLight{lamp.direction, lamp.strength};
+  if (lamp.spot)
+    return SpotLight{lamp.position, lamp.normal, lamp.strength, lamp.spot->cutoff, lamp.spot->beam};
   return PointLight{lamp.position, lamp.strength, lamp.normal};
 }
 

@@ -104,8 +104,8 @@ TEST(LobeByItsFormula, DrawsSamplesAsItsDensitySays) {
 }
 
 TEST(LobeByItsFormula, CountsTheOperationsOfItsTree) {
-  EXPECT_EQ(operations(formula_lobe("max(0, 1 - n*s/16)^16")), (OperationCount{1, 1, 1, 0, 1, 1}));
-  EXPECT_EQ(operations(formula_lobe("exp(-n*x^2/2)/sqrt(c)")), (OperationCount{3, 1, 2, 2, 3, 1}));
+  EXPECT_EQ(operations(formula_lobe("max(0, 1 - n*s/16)^16")), (OperationCount{0, 1, 1, 1, 0, 1, 1}));
+  EXPECT_EQ(operations(formula_lobe("exp(-n*x^2/2)/sqrt(c)")), (OperationCount{0, 3, 1, 2, 2, 3, 1}));
 }
 
 TEST(LobeByItsFormula, IsRefusedWhereItIsNoLobe) {

@@ -20,10 +20,10 @@ interface Chosen {
   readonly norm: string; readonly at: AtExponent; readonly shader: string;
 }
 
-/** "12 ×, 9 +, 1 ÷": of the lobe and the model together. */
+/** "3 × +, 12 ×, 1 ÷; price 21": of the lobe and the model together. */
 function operationsText(lobe: Operations, model: Operations): string {
-  const signs: [keyof Operations, string][] = [['multiply', '×'], ['add', '+'], ['divide', '÷'], ['root', '√'], ['transcendental', 'exp or log'], ['compare', 'comparisons']];
-  return signs.flatMap(([key, sign]) => (lobe[key] + model[key] ? `${lobe[key] + model[key]} ${sign}` : [])).join(', ');
+  const signs: [keyof Operations, string][] = [['multiplyAdd', '× +'], ['multiply', '×'], ['add', '+'], ['divide', '÷'], ['root', '√'], ['transcendental', 'exp or log'], ['compare', 'comparisons']];
+  return signs.flatMap(([key, sign]) => (lobe[key] + model[key] ? `${lobe[key] + model[key]} ${sign}` : [])).join(', ') + `; price ${lobe.price + model.price}`;
 }
 
 export function explorer(main: HTMLElement): void {
@@ -216,8 +216,8 @@ class Explorer {
   private fillNumbers(shown: readonly Chosen[]): void {
     const rows: [string, (c: Chosen) => string][] = [
       ['Exponent n', (c) => numberText(c.at.n, 5)],
-      ['Coefficient', (c) => numberText(c.at.coefficient(c.highlight, c.norm), 4)],
-      ['How it comes about', (c) => (c.norm === 'paper' ? 'as the paper prints it' : c.model.coefficient)],
+      ['Coefficient, of the radiance', (c) => numberText(c.at.coefficient(c.highlight, c.norm), 4)],
+      ['Normalisation constant', (c) => (c.norm === 'paper' ? 'as the paper prints it' : c.model.normalisationConstant) + (c.model.normalised === 'radiance' ? '' : ', four times the coefficient')],
       ['Peak', (c) => `${numberText(c.at.coefficient(c.highlight, c.norm), 4)}${c.model.hasShadowing ? ' G / N·V' : c.model.appliesCosine ? ' N·L' : ' at any incidence'}`],
       ['Half-width of the lobe', (c) => `${numberText(c.at.halfWidth(c.lobe), 4)}°`],
       ['Lobe is 0 beyond', (c) => `${numberText(c.at.reach(c.lobe), 4)}°`],

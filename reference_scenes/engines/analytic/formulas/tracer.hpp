@@ -151,7 +151,12 @@ class Tracer {
     const V to_lamp = lamp.position - at.point;
     const Real square = dot(to_lamp, to_lamp), distance = sqrt(square);
     arrival.to_light = Real(1 / distance) * to_lamp;
-    const Real towards = lamp.has_normal ? Real(-dot(lamp.normal, arrival.to_light)) : Real(1);
+    Real towards = lamp.has_normal ? Real(-dot(lamp.normal, arrival.to_light)) : Real(1);
+    if (lamp.has_cone) {
+      Real part = (towards - lamp.cos_cutoff) / (lamp.cos_beam - lamp.cos_cutoff);
+      part = part < 0 ? Real(0) : part > 1 ? Real(1) : part;
+      towards = part * part * (3 - 2 * part);
+    }
     if (towards <= 0) return std::nullopt;
     arrival.falloff = towards / square;
     arrival.n_dot_l = dot(at.normal, arrival.to_light);
@@ -197,7 +202,8 @@ class Tracer {
   /// A near lamp, and where it is to each surface.
   struct NearLamp {
     V position, normal;
-    bool has_normal = false;
+    bool has_normal = false, has_cone = false;
+    Real cos_beam, cos_cutoff;
     std::vector<bool> lies_on;  ///< by surface: spheres first, then planes
     std::vector<Real> heights;  ///< over each plane; 0 over one that it lies on
   };
@@ -224,6 +230,13 @@ class Tracer {
     lamp.position = V(given->position);
     lamp.normal = V(given->normal);
     lamp.has_normal = given->has_normal();
+    if (given->spot) {
+      using std::cos, std::acos;
+      const Real degree = acos(Real(-1)) / 180;
+      lamp.has_cone = true;
+      lamp.cos_beam = cos(Real(given->spot->beam) * degree);
+      lamp.cos_cutoff = cos(Real(given->spot->cutoff) * degree);
+    }
     const auto is_close = [&](const Real& height) {
       return height <= closeness && -height <= closeness;
     };
