@@ -241,6 +241,49 @@ std::string picture_of(const Scene& scene) {
   return "";
 }
 
+std::pair<std::string, std::string> conflict_of(const Grid& grid) {
+  const auto find = [&](std::string_view name) {
+    const auto found = std::ranges::find(grid.axes, name, &Axis::name);
+    return found == grid.axes.end() ? nullptr : &*found;
+  };
+  const auto first = [&](const Axis* axis, const auto& is) -> const AxisValue* {
+    if (!axis) return nullptr;
+    const auto found = std::ranges::find_if(axis->values, is);
+    return found == axis->values.end() ? nullptr : &*found;
+  };
+  if (find("lobe")) {
+    if (const AxisValue* both = first(find("normalisation"), [](const AxisValue& v) {
+          return v.value.find(':') != v.value.npos;
+        }))
+      return {"normalisation",
+              fmt::format("LOBE:NORMALISATION '{}' beside an axis 'lobe'; allowed there: {}",
+                          both->value, join(normalisation_names()))};
+    if (first(find("model"), [](const AxisValue& v) { return v.value == kGgx; }))
+      return {"model",
+              fmt::format("'{}', which has a lobe of its own, beside an axis 'lobe'", kGgx)};
+  }
+  for (const auto& [one, other] : {std::pair{"roughness", "exponent"}, {"angle", "light"}})
+    if (find(one) && find(other))
+      return {one,
+              fmt::format("an axis '{}' beside an axis '{}'; allowed: one of them", one, other)};
+  if (const Axis* angle = find("angle")) {
+    std::vector<const Scene*> scenes{&grid.scene};
+    if (const Axis* of_scenes = find("scene")) {
+      scenes.clear();
+      for (const AxisValue& value : of_scenes->values) scenes.push_back(value.scene.get());
+    }
+    for (const Scene* scene : scenes) {
+      Scene copy = *scene;
+      try {
+        angle->values.front().apply(copy);
+      } catch (const std::runtime_error& e) {
+        return {"angle", e.what()};
+      }
+    }
+  }
+  return {};
+}
+
 std::span<const AxisKind> axis_kinds() { return kAxisKinds; }
 
 std::vector<std::string> split_values(std::string_view axis, std::string_view text) {

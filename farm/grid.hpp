@@ -53,6 +53,10 @@ struct AxisKind {
 
 std::span<const AxisKind> axis_kinds();
 
+struct Grid;
+/// An axis that cannot stand beside another one, or with a scene of the grid, and why; empty if all can.
+std::pair<std::string, std::string> conflict_of(const Grid& grid);
+
 /// All of docs/reference/grid.xsd, by the table that read_grid() checks against.
 std::string grid_schema();
 

@@ -121,7 +121,8 @@ class GridReader {
     check_size(root);
     source_.throw_if_errors();  // what follows builds on whole axes
     read_choices(source_, root, tables_, std::move(factors_), grid_);
-    check_lobes();
+    if (const auto [axis, why] = conflict_of(grid_); !why.empty())
+      source_.error(axis_nodes_[axis], why);
     check_places();
     source_.throw_if_errors();
     finish_scenes();
@@ -371,19 +372,6 @@ class GridReader {
       if (count <= kMaxCells) continue;
       source_.error(root, fmt::format("over {} cells; allowed: {}", kMaxCells, kMaxCells));
       return;
-    }
-  }
-
-  void check_lobes() {
-    if (!axis_nodes_.contains("lobe") || !axis_nodes_.contains("normalisation")) return;
-    for (const auto& axis : grid_.axes) {
-      if (axis.name != "normalisation") continue;
-      for (const auto& value : axis.values)
-        if (value.value.find(':') != value.value.npos)
-          return source_.error(
-              axis_nodes_["normalisation"],
-              fmt::format("LOBE:NORMALISATION '{}' beside an axis 'lobe'; allowed there: {}",
-                          value.value, join(normalisation_names())));
     }
   }
 

@@ -71,8 +71,7 @@ std::string coefficient_formula(const Highlight& highlight) {
   // The integral of GGX times its cosine is that of cos^n: 1 / (n + 2).
   const EnergyIntegral& energy = model.energy;
   const bool is_projected = energy.s_max == 1 && energy.weights == std::array{1.0, -1.0, 0.0, 0.0};
-  if (lobe.column == PaperColumn::kCosine ||
-      (is_projected && info(highlight.lobe).name == kGgx))
+  if (lobe.column == PaperColumn::kCosine || (is_projected && info(highlight.lobe).name == kGgx))
     return share + fill(model.texts.exact_cosine, {{"pi", pi}});
   if (lobe.text.slope.empty()) return "";
   return fmt::format("{} / lobelia_{}_energy(n, {}, {}, {}, {}, {})",
@@ -173,7 +172,7 @@ class Writer {
   void add_coefficient(const Highlight& highlight, const std::string& function,
                        const std::string& formula) {
     const LobeForm lobe = lobe_form(highlight.lobe);
-    if (highlight.normalisation == Normalisation::kExact && lobe.column != PaperColumn::kCosine) {
+    if (formula.find("_energy(") != formula.npos) {
       add_lobe(highlight.lobe, false);
       add_part(fmt::format("lobelia_{}_energy", identifier(highlight.lobe)),
                fill(embedded::gpu_energy,

