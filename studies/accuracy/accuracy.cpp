@@ -13,6 +13,7 @@
 #include "compare/metrics/metric.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/peak_bound.hpp"
+#include "renderer/plan/idle_parts.hpp"
 #include "renderer/plan/plan.hpp"
 #include "renderer/small_highlights.hpp"
 
@@ -33,6 +34,7 @@ constexpr double kCiedeMargin = 1.001;
 constexpr int kTruthSamples = 8;
 
 bool is_noisy(const Scene& scene) {
+  if (const auto trimmed = without_idle_parts(scene)) return is_noisy(*trimmed);
   return scene.sampler.sample_count > 1 || scene.depth.glossy > 0 ||
          scene.camera.aperture_radius > 0 ||
          !std::all_of(scene.lights.begin(), scene.lights.end(), is_delta);
