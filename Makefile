@@ -119,7 +119,7 @@ fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel "$(JOBS)"
 	$(configure)
-	$(build) --target test_renderer_random_scenes test_formulas
+	$(build) --target test_renderer test_renderer_random_scenes test_formulas test_accuracy
 	@tools/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
 
 chaos: ## faults at random for MINUTES (10): first farms are disturbed, then system calls of six commands fail; SEED=N repeats them

@@ -145,6 +145,17 @@ TEST(SmallHighlights, HaveTheirEnergyAtEveryExponentAndSizeOfPicture) {
   EXPECT_GT(missed, 20);
 }
 
+TEST(RandomScenes, HaveTheEnergyOfTheirSmallHighlights) {
+  expect_of_random_scenes(SceneKind::kExact, 20, [](const Scene&, Random& random) -> std::string {
+    const double n = random.log_between(200, 1e8);
+    const Scene scene = random_sphere(random, n, 32 << random.below(6));
+    const double share = energy(render(scene, {}).image) / EnergyOnFilm(scene).value();
+    return std::abs(share - 1) <= kAverageError
+               ? ""
+               : fmt::format("n = {}, {} pixels: {} of the energy", n, scene.film.width, share);
+  });
+}
+
 TEST(SmallHighlights, HaveTheirEnergyWithEveryLobe) {
   Random random(62);
   for (const LobeId& lobe : all_lobes())

@@ -73,7 +73,7 @@ std::string fault_of(Scene scene, Random& random) {
   return reached.held(choice) ? "" : fmt::format("{}: reached {:g}", text, reached.value);
 }
 
-TEST(Accuracy, IsNoDearerThanTheCheapestOfAllTrialsInRandomScenes) {
+TEST(RandomScenes, AreShownNoDearerThanByTheCheapestOfAllWays) {
   expect_of_random_scenes(SceneKind::kExact, kRequests * more_samples(), fault_of);
 }
 
