@@ -41,11 +41,11 @@ constexpr std::array<Kind, sizeof...(T)> kinds_of() {
 
 constexpr auto kKinds =
     kinds_of<Agreement, Bench, Blob, Blobs, BsdfCheck, Cell, Comparison, ComparisonSet, Content,
-             Conversion, ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
-             FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
-             LobeSearch, Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
-             Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyHighlights, VerifyPaper,
-             VerifyProfiles, VerifyStability, VerifyVerdicts>();
+             Conversion, ConversionTable, ConvertedMaterials, Cost, Engines, Failure, Farm,
+             FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus, KnownHashes,
+             GalleryList, HighlightTables, LobeSearch, Models, Plan, Profile, Profiles, Project,
+             Reference, Render, Result, Scene, Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun,
+             VerifyHighlights, VerifyPaper, VerifyProfiles, VerifyStability, VerifyVerdicts>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {

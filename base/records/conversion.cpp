@@ -12,7 +12,7 @@ void define_conversion_tables(Tables& tables) {
       "A highlight under light along the normal of a flat surface: the light that leaves per steradian, by the angle of "
       "the eye from the normal, per unit irradiance and reflectance.",
       [](auto& t) {
-        t.key("exponent", "of a model of the catalogue, with the cosine lobe").between(0, kNoBound);
+        t.key("exponent", "of a model of the catalogue, with the cosine lobe").at_least(0);
         t.key("alpha", "of GGX").within(0, 1);
         t.key("roughness", "of GGX: the root of alpha, as in Blender and in glTF").within(0, 1);
         t.key("peak", "in the mirror direction").at_least(0);
@@ -55,6 +55,25 @@ void define_conversion_tables(Tables& tables) {
         t.keys({"fromParameter", "toParameter"}).one_of(kParameters);
         t.key("measure", "that was asked for").one_of(kConversionMeasures);
         t.key("columns", "the best by each measure and by each rule, over the parameter of `from`");
+      });
+  tables.define<ConvertedMaterial>(
+      "A material of a file, and what it is in other models.", [](auto& t) {
+        t.key("name", "in the file, or its number there");
+        t.key("from", "missing if the material has no highlight that can be converted");
+        t.key("reflectance",
+              "head on, over that at grazing angles: what Schlick's factor in `from` depends on")
+            .within(0, 1);
+        t.key("remarks", "each default in use, and all that is left out").if_any();
+        t.key("best", "in each other model the best parameter, by the one measure").if_any();
+        t.key("rules", "of thumb, for the one model that was asked for").if_any();
+      });
+  tables.define<ConvertedMaterials>(
+      "Materials of a file converted to other models: 'lobelia convert FILE --json FILE'.",
+      [](auto& t) {
+        t.kind("converted-materials");
+        t.key("meaning", "of the parameters in the file's format, with the source");
+        t.key("measure", "that was asked for").one_of(kConversionMeasures);
+        t.key("remarks", "on the whole file").if_any();
       });
 }
 

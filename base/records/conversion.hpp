@@ -52,6 +52,23 @@ struct ConversionTable {
   std::vector<ChartSeries> columns;
 };
 
+/// A material of a file, converted.
+struct ConvertedMaterial {
+  std::string name;
+  std::optional<ConvertedHighlight> from;
+  std::optional<double> reflectance;
+  std::vector<std::string> remarks;
+  std::vector<ConversionBest> best;
+  std::vector<ConversionRule> rules;
+};
+
+struct ConvertedMaterials {
+  std::vector<std::string> command;
+  std::string file, meaning, measure;
+  std::vector<std::string> remarks;
+  std::vector<ConvertedMaterial> materials;
+};
+
 void define_conversion_tables(Tables& tables);
 
 }  // namespace lobelia::records

@@ -30,13 +30,15 @@ constexpr std::string_view kWithoutEffect[] = {"near_clip",
                                                "silhouette_sampling_weight",
                                                "srf"};
 
-/// The mirror image of "toWorld" in names of version 3: "to_world".
+/// The mirror image of "toWorld" and "intIOR" in names of version 3: "to_world", "int_ior".
 std::string in_lower_case_with_underscores(std::string_view name) {
   std::string text;
+  bool was_upper = false;
   for (const char c : name) {
     const bool is_upper = std::isupper(static_cast<unsigned char>(c)) != 0;
-    if (is_upper) text += '_';
+    if (is_upper && !was_upper) text += '_';
     text += is_upper ? char(c - 'A' + 'a') : c;
+    was_upper = is_upper;
   }
   return text;
 }

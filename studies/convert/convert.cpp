@@ -179,6 +179,22 @@ Best best_parameter(const Request& request, Measure measure) {
       request.to.min(), request.to.max());
 }
 
+records::ConversionBest convert_to_best(const Request& request) {
+  return best_record(request, Curve(request.from, request.parameter, request.f0), request.measure);
+}
+
+std::vector<records::ConversionRule> convert_by_rules(const Request& request) {
+  const Curve from(request.from, request.parameter, request.f0);
+  std::vector<records::ConversionRule> records;
+  for (const Rule& rule : rules(request.from, request.to))
+    records.push_back(rule_record(request, from, rule));
+  return records;
+}
+
+records::ConvertedHighlight convert_from(const Request& request) {
+  return highlight_of(Curve(request.from, request.parameter, request.f0));
+}
+
 records::Conversion convert(const Request& request) {
   const Curve from(request.from, request.parameter, request.f0);
   records::Conversion record;
@@ -188,8 +204,7 @@ records::Conversion convert(const Request& request) {
   record.measure = records::kConversionMeasures[std::size_t(request.measure)];
   for (std::size_t i = 0; i < std::size(records::kConversionMeasures); ++i)
     record.best.push_back(best_record(request, from, Measure(i)));
-  for (const Rule& rule : rules(request.from, request.to))
-    record.rules.push_back(rule_record(request, from, rule));
+  record.rules = convert_by_rules(request);
   record.curves = curves_of(request, from, record);
   return record;
 }

@@ -1,6 +1,7 @@
 // The parameter with which one model looks most like another, and what rules of thumb make of it.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,19 @@ struct Best {
 Best best_parameter(const Request& request, Measure measure);
 
 records::Conversion convert(const Request& request);
+
+records::ConvertedHighlight convert_from(const Request& request);
+/// The best parameter of `request.to` by `request.measure`, with its errors.
+records::ConversionBest convert_to_best(const Request& request);
+/// What the rules of thumb between the two models make of the parameter.
+std::vector<records::ConversionRule> convert_by_rules(const Request& request);
+
+/// The materials of a file (studies/convert/assets/assets.hpp): each in the model `to` by `measure` and by rules of thumb, or
+/// without one in every model by `measure`; never in its own. `f0` takes the place of the reflectance that the file says.
+records::ConvertedMaterials convert_materials(const std::filesystem::path& file,
+                                              std::optional<ShadingModel> to,
+                                              std::optional<double> f0, Measure measure);
+std::string materials_text(const records::ConvertedMaterials& converted);
 
 // The best parameters over the whole range, and what rules of thumb make of it.
 

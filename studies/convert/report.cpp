@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/words/text.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::conversion {
@@ -28,13 +29,15 @@ std::string_view measure_title(std::string_view measure) {
 /// A table whose columns after the first are filled by add().
 class ConversionTable {
  public:
-  explicit ConversionTable(bool to_ggx) {
+  /// The parameters that have columns: of models with an exponent, of GGX, or of both.
+  enum class Shown : std::uint8_t { kExponent = 1, kGgx = 2, kBoth = 3 };
+
+  explicit ConversionTable(Shown shown) : shown_(shown) {
     table_.columns.push_back({"", -20});
-    if (to_ggx) {
+    if (shows(Shown::kExponent)) table_.columns.push_back({"exponent", 11, "{:.6g}", 1});
+    if (shows(Shown::kGgx)) {
       table_.columns.push_back({"alpha", 10, "{:.4g}", 1});
       table_.columns.push_back({"roughness", 10, "{:.4g}", 1});
-    } else {
-      table_.columns.push_back({"exponent", 11, "{:.6g}", 1});
     }
     for (const char* title : {"max %", "peak", "width", "energy"})
       table_.columns.push_back({title, 8, "{:.3g}", 1});
@@ -42,13 +45,14 @@ class ConversionTable {
     table_.columns.push_back({"dE2000", 8, "{:.3g}", 1});
   }
 
-  void heading(const char* text) { table_.rows.push_back({text}); }
+  void heading(std::string_view text) { table_.rows.push_back({text}); }
   void remark(std::string text) { table_.remarks.push_back(std::move(text)); }
   void add(std::string_view name, const ConvertedHighlight& highlight,
            const records::ConversionErrors& errors) {
     std::vector<studies::Cell>& cells = begin_row(name);
-    for (const auto& parameter : {highlight.exponent, highlight.alpha, highlight.roughness})
-      if (parameter) cells.emplace_back(*parameter);
+    if (shows(Shown::kExponent)) add_parameter(cells, highlight.exponent);
+    for (const auto& parameter : {highlight.alpha, highlight.roughness})
+      if (shows(Shown::kGgx)) add_parameter(cells, parameter);
     cells.insert(cells.end(),
                  {100 * errors.largest_of_peak, errors.peak_ratio, errors.half_width_ratio,
                   errors.energy_ratio, 100 * errors.misplaced_energy, errors.largest_ciede2000});
@@ -63,13 +67,52 @@ class ConversionTable {
     return table_.rows.emplace_back(std::vector<studies::Cell>{fmt::format("  {}", name)});
   }
 
+  bool shows(Shown parameter) const { return (int(shown_) & int(parameter)) != 0; }
+  static void add_parameter(std::vector<studies::Cell>& cells, std::optional<double> parameter) {
+    cells.push_back(parameter ? studies::Cell(*parameter) : studies::Cell("-"));
+  }
+
+  Shown shown_;
   studies::Table table_;
 };
 
+/// The material's highlight, what it is in other models, and all remarks.
+void add_material(const records::ConvertedMaterial& material, ConversionTable& table) {
+  table.heading(material.from ? fmt::format("{}: {}, {}", material.name, material.from->model,
+                                            parameter_text(*material.from))
+                              : fmt::format("{}: not converted", material.name));
+  for (const records::ConversionBest& best : material.best)
+    table.add(best.highlight.model + (best.is_end_of_range ? " (end)" : ""), best.highlight,
+              best.errors);
+  for (const records::ConversionRule& rule : material.rules)
+    if (rule.highlight)
+      table.add("  " + rule.name, *rule.highlight, *rule.errors);
+    else
+      table.heading(fmt::format("    {}: {}", rule.name, rule.because));
+  for (const std::string& remark : material.remarks) table.heading("  " + remark);
+}
+
 }  // namespace
 
+std::string materials_text(const records::ConvertedMaterials& converted) {
+  int shown = 0;
+  for (const records::ConvertedMaterial& material : converted.materials)
+    for (const records::ConversionBest& best : material.best)
+      shown |= int(best.highlight.alpha ? ConversionTable::Shown::kGgx
+                                        : ConversionTable::Shown::kExponent);
+  ConversionTable table{ConversionTable::Shown(shown)};
+  for (const records::ConvertedMaterial& material : converted.materials)
+    add_material(material, table);
+  table.remark(converted.meaning);
+  for (const std::string& remark : converted.remarks) table.remark(remark);
+  const std::size_t count = converted.materials.size();
+  return fmt::format("{}: {} material{}, best by {}\n\n{}", printable_path(converted.file), count,
+                     count == 1 ? "" : "s", measure_title(converted.measure), table.text());
+}
+
 std::string conversion_text(const records::Conversion& conversion) {
-  ConversionTable table(conversion.to == "ggx");
+  ConversionTable table(conversion.to == "ggx" ? ConversionTable::Shown::kGgx
+                                               : ConversionTable::Shown::kExponent);
   table.heading("best by");
   for (const records::ConversionBest& best : conversion.best) {
     table.add(measure_title(best.measure), best.highlight, best.errors);
