@@ -1,4 +1,4 @@
-// lobelia convert --exponent N --to MODEL
+// lobelia convert [FILE] [--exponent N] [--to MODEL]
 #include "studies/convert/convert.hpp"
 #include "base/records/record.hpp"
 #include "program/command/commands.hpp"
@@ -11,9 +11,8 @@ namespace lobelia::cli {
 namespace {
 
 struct ConvertArguments {
-  std::string from, to, measure = "max", json, svg;
-  std::optional<double> exponent, alpha, roughness;
-  double f0 = 1;
+  std::string file, from, to, measure = "max", json, svg;
+  std::optional<double> exponent, alpha, roughness, f0;
   WorkLimits limits;
 };
 
@@ -22,7 +21,14 @@ conversion::ShadingModel shading_model(const std::string& name, std::string_view
   return chosen(name, option, names, conversion::find_shading_model);
 }
 
+conversion::Measure measure_of(const ConvertArguments& options) {
+  return conversion::Measure(
+      chosen_place(options.measure, "--measure", records::kConversionMeasures));
+}
+
 conversion::Request request_of(const ConvertArguments& options) {
+  if (options.to.empty())
+    throw Error(ExitCode::kUsage, "--to is required, unless a FILE of materials is given");
   const int given =
       options.exponent.has_value() + options.alpha.has_value() + options.roughness.has_value();
   if (given > 1)
@@ -39,9 +45,8 @@ conversion::Request request_of(const ConvertArguments& options) {
                       : options.alpha     ? *options.alpha
                       : options.roughness ? *options.roughness * *options.roughness
                                           : 0;
-  request.f0 = options.f0;
-  request.measure =
-      conversion::Measure(chosen_place(options.measure, "--measure", records::kConversionMeasures));
+  request.f0 = options.f0.value_or(1);
+  request.measure = measure_of(options);
   return request;
 }
 
@@ -63,7 +68,25 @@ ConvertResult converted(const conversion::Request& request) {
           draw_chart_file(conversion::range_chart(table))};
 }
 
+void run_convert_file(const ConvertArguments& options) {
+  if (options.exponent || options.alpha || options.roughness || !options.from.empty() ||
+      !options.svg.empty())
+    throw Error(
+        ExitCode::kUsage,
+        "a FILE says the highlights: leave out --from, --exponent, --alpha, --roughness, --svg");
+  std::optional<conversion::ShadingModel> to;
+  if (!options.to.empty()) to = shading_model(options.to, "--to");
+  OutputFiles outputs;
+  outputs.reads(options.file);
+  outputs.writes_report(options.json);
+  records::ConvertedMaterials converted =
+      conversion::convert_materials(options.file, to, options.f0, measure_of(options));
+  converted.command = command_line();
+  write_reports(conversion::materials_text(converted), {{options.json, record_text(converted)}});
+}
+
 void run_convert(const ConvertArguments& options) {
+  if (!options.file.empty()) return run_convert_file(options);
   if (options.json == kStdout && options.svg == kStdout)
     throw Error(ExitCode::kUsage, "only one of --json and --svg can go to stdout");
   OutputFiles outputs;
@@ -76,9 +99,13 @@ void run_convert(const ConvertArguments& options) {
 
 void add_convert(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
-      "convert", "Convert an exponent to a GGX roughness and back, or between two models");
+      "convert",
+      "Convert an exponent to a GGX roughness and back, between two models, or a file's materials");
   auto options = std::make_shared<ConvertArguments>();
   OptionGroup from(*command, "From");
+  from.add("FILE", options->file, "",
+           "Materials: .mtl, .gltf, .glb, .pov, .inc, or .xml of Mitsuba or Lobelia")
+      ->check(not_empty());
   from.add("--from", options->from, "",
            fmt::format("Model: {}; otherwise blinn_phong_heightfield for an exponent, else ggx",
                        join(conversion::shading_model_names())));
@@ -88,14 +115,16 @@ void add_convert(CLI::App& app, ExitCode&) {
   from.add("--roughness", options->roughness, "", "Roughness of ggx, the root of alpha")
       ->check(between(std::sqrt(kMinAlpha), std::sqrt(kMaxAlpha)));
   OptionGroup to(*command, "To");
-  to.add("--to", options->to, "", "Model, as for --from")->required();
+  to.add("--to", options->to, "", "Model, as for --from; of a FILE otherwise every model");
   to.add("--measure", options->measure, "",
          fmt::format("Which best parameter comes first: {}", join(records::kConversionMeasures)))
       ->capture_default_str();
-  to.add_number("--f0", options->f0, 1e-3, 1,
-                "Reflectance head on; ggx has Schlick's Fresnel factor for it");
+  to.add("--f0", options->f0, "",
+         "Reflectance head on; ggx has Schlick's Fresnel factor for it. Default: a FILE's, or 1")
+      ->check(between(1e-3, 1));
   OptionGroup output(*command, "Output");
-  add_json(output, options->json, "conversion, of a range conversion-table");
+  add_json(output, options->json,
+           "conversion, of a range conversion-table, of a FILE converted-materials");
   output.add(
       "--svg", options->svg, "FILE|-",
       "Write a chart of both highlights, or of the range, with the rules of thumb; with - likewise");
@@ -110,10 +139,11 @@ void add_convert(CLI::App& app, ExitCode&) {
       "Examples:\n"
       "  lobelia convert --exponent 32 --to ggx\n"
       "  lobelia convert --to ggx --svg roughness.svg\n"
+      "  lobelia convert materials.mtl --to ggx\n"
       "  lobelia convert --roughness 0.5 --to modified_blinn_phong --measure width\n"
       "  lobelia convert --from phong_rdf --exponent 20 --to blinn_phong_rdf --svg both.svg\n"
       "\n"
-      "Exit codes: 0 done, 2 usage, 4 an output cannot be written.");
+      "Exit codes: 0 done, 2 usage, 3 a file cannot be read, 4 an output cannot be written.");
   command->callback([options] { options->limits.run([&] { run_convert(*options); }); });
 }
 

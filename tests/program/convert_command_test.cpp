@@ -66,6 +66,23 @@ TEST_F(ConvertCommand, WritesARecordAndAChart) {
   EXPECT_EQ(range["columns"].size(), 9u);
 }
 
+TEST_F(ConvertCommand, WritesTheMaterialsOfAFile) {
+  write_file(directory_.path() / "a.mtl", "newmtl shiny\nNs 100\nnewmtl plain\n");
+  const Json record = Json::parse(printed("lobelia convert a.mtl --to ggx --f0 0.04 --json -\n"));
+  EXPECT_EQ(record["kind"], "converted-materials");
+  EXPECT_EQ(record["file"], "a.mtl");
+  const Json& shiny = record["materials"][0];
+  EXPECT_EQ(shiny["from"]["exponent"], 100);
+  EXPECT_EQ(shiny["reflectance"], 0.04);
+  EXPECT_EQ(shiny["best"][0]["highlight"]["model"], "ggx");
+  EXPECT_EQ(shiny["rules"].size(), 5u);
+  EXPECT_FALSE(record["materials"][1].contains("from"));
+  expect_one_line(run("a.mtl --exponent 3"), 2, "leave out --from, --exponent");
+  expect_one_line(run("a.obj"), 2, "allowed: .mtl");
+  expect_one_line(run("missing.mtl"), 3, "missing.mtl");
+  expect_one_line(run("a.mtl --json a.mtl"), 2, "a.mtl");
+}
+
 TEST_F(ConvertCommand, ARoughnessIsTheRootOfAlpha) {
   const auto best = [&](const std::string& from) {
     return Json::parse(
