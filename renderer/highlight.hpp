@@ -90,8 +90,11 @@ struct Highlight {
   double exponent = 64;  ///< n, kMinExponent to kMaxExponent
 };
 
-inline constexpr double kMinExponent = 1e-3;
-inline constexpr double kMaxExponent = 1e8;
+/// With exponent 0 every lobe is flat: 1 where s < 1, 0 beyond.
+inline constexpr double kMinExponent = 0, kMaxExponent = 1e8;
+/// A lobe with an exponent below has the figures of the flat one, to the last digit. Closed forms that divide by n use it
+/// for 0.
+inline constexpr double kFlatExponent = 1e-60;
 
 /// The catalogues, in their order. Only the usual members of a family are listed; find_lobe() knows all. A lobe by a
 /// formula is not listed.

@@ -55,8 +55,9 @@ struct ConvertResult {
   std::string record, text, svg;
 };
 
-ConvertResult converted(const conversion::Request& request) {
-  if (request.parameter > 0) {
+ConvertResult converted(const ConvertArguments& options) {
+  const conversion::Request request = request_of(options);
+  if (options.exponent || options.alpha || options.roughness) {
     records::Conversion conversion = conversion::convert(request);
     conversion.command = command_line();
     return {record_text(conversion), conversion::conversion_text(conversion),
@@ -91,7 +92,7 @@ void run_convert(const ConvertArguments& options) {
     throw Error(ExitCode::kUsage, "only one of --json and --svg can go to stdout");
   OutputFiles outputs;
   for (const std::string& path : {options.json, options.svg}) outputs.writes_report(path);
-  const ConvertResult result = converted(request_of(options));
+  const ConvertResult result = converted(options);
   write_reports(result.text, {{options.json, result.record}, {options.svg, result.svg}});
 }
 

@@ -22,8 +22,8 @@ constexpr Parameter kMitsubaPhongParameters[] = {
     {"specular_reflectance", ParameterType::kRgb, "0.2", 0, 1, "", ""},
     {"diffuse_reflectance", ParameterType::kRgb, "0.5", 0, 1, "", ""},
 };
-/// The exponent is 2 / alpha^2 - 2, and may be 0.001 to 1e8.
-constexpr double kLeastAlpha = 1.5e-4, kMostAlpha = 0.999;
+/// The exponent is 2 / alpha^2 - 2, and may be 0 to 1e8.
+constexpr double kLeastAlpha = 1.5e-4, kMostAlpha = 1;
 constexpr Parameter kMitsubaConductorParameters[] = {
     {"distribution", ParameterType::kString, "beckmann", 0, 0, "", ""},
     {"material", ParameterType::kString, "none", 0, 0, "", ""},

@@ -20,13 +20,14 @@
 namespace lobelia {
 
 struct LobeParameters {
-  double exponent;                                   ///< n
+  double exponent;                                   ///< n, at least kFlatExponent
   int order;                                         ///< k of a family of lobes; 0 otherwise
   std::shared_ptr<const Formula> formula = nullptr;  ///< of a lobe by a formula; null otherwise
 
-  LobeParameters(double n, int k) : exponent(n), order(k) {}
-  LobeParameters(double n, const LobeId& lobe)
-      : exponent(n), order(lobe.order), formula(lobe.formula) {}
+  LobeParameters(double n, int k) : exponent(std::max(n, kFlatExponent)), order(k) {}
+  LobeParameters(double n, const LobeId& lobe) : LobeParameters(n, lobe.order) {
+    formula = lobe.formula;
+  }
   explicit LobeParameters(const Highlight& h) : LobeParameters(h.exponent, h.lobe) {}
 };
 

@@ -36,13 +36,13 @@ struct SchlickLobe {
   }
 
   /// Follows 1 / (1 - s + n s), the lobe without the factor 1 - s, because only its integral has an inverse in
-  /// closed form.
+  /// closed form. Below n = 1 that would prefer the edge of the lobe; every s is as likely instead.
   double sample(double xi) const {
     const double m = n - 1;
-    return m == 0 ? xi : std::clamp(std::expm1(xi * std::log1p(m)) / m, 0.0, 1.0);
+    return m <= 0 ? xi : std::clamp(std::expm1(xi * std::log1p(m)) / m, 0.0, 1.0);
   }
   double density(double s) const {
-    const double m = n - 1;
+    const double m = std::max(0.0, n - 1);
     return s < 1 ? (m == 0 ? 1 : m / std::log1p(m)) / (1 + m * s) : 0;
   }
   PaperColumn paper_column() const { return PaperColumn::kNone; }

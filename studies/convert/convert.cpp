@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kInDegrees = 180 / kPi;
 
+/// Searches go by the logarithm of the parameter. Below an exponent of 1e-3 a highlight hardly changes.
+double least_searched(ShadingModel model) { return model.is_ggx() ? model.min() : 1e-3; }
+
 /// The quantity that a measure minimises.
 double distance(Measure measure, const Curve& from, const Curve& to) {
   switch (measure) {
@@ -32,10 +35,10 @@ Best parameter_of_width(ShadingModel model, double f0, double half_width) {
   const auto is_wider = [&](double parameter) {
     return Curve(model, parameter, f0).half_width() > half_width;
   };
-  double narrowest = model.min(), widest = model.max();
+  double narrowest = least_searched(model), widest = model.max();
   if (!model.is_ggx()) std::swap(narrowest, widest);
   if (is_wider(narrowest)) return {narrowest, true};
-  if (!is_wider(widest)) return {widest, true};
+  if (!is_wider(widest)) return {model.is_ggx() ? widest : model.min(), true};
   double narrow = std::log(narrowest), wide = std::log(widest);
   for (int step = 0; step < 60; ++step) {
     const double middle = (narrow + wide) / 2;
@@ -45,7 +48,8 @@ Best parameter_of_width(ShadingModel model, double f0, double half_width) {
 }
 
 /// Looks over the whole range first, because an error may have several valleys.
-Best parameter_of_least(const std::function<double(double)>& error, double min, double max) {
+Best parameter_of_least(const std::function<double(double)>& error, ShadingModel model) {
+  const double min = least_searched(model), max = model.max();
   constexpr double kStep = 0.1, kEnd = 1e-6;  // of the logarithm
   const double from = std::log(min), to = std::log(max);
   const auto error_of = [&](double t) { return error(std::exp(t)); };
@@ -68,7 +72,7 @@ Best parameter_of_least(const std::function<double(double)>& error, double min, 
         least = reached;
       }
   }
-  if (best - from < kEnd) return {min, true};
+  if (best - from < kEnd || error(model.min()) <= least) return {model.min(), true};
   if (to - best < kEnd) return {max, true};
   return {std::exp(best), false};
 }
@@ -176,7 +180,7 @@ Best best_parameter(const Request& request, Measure measure) {
       [&](double parameter) {
         return distance(measure, from, Curve(request.to, parameter, request.f0));
       },
-      request.to.min(), request.to.max());
+      request.to);
 }
 
 records::ConversionBest convert_to_best(const Request& request) {

@@ -18,7 +18,7 @@ enum class Measure : std::uint8_t { kMax, kWidth, kEnergy, kCiede2000 };
 
 struct Request {
   ShadingModel from, to;
-  double parameter = 0;  ///< of `from`; not used for a range
+  double parameter = 0;  ///< of `from`; not used for a range. An exponent may be 0
   double f0 = 1;
   Measure measure = Measure::kMax;  ///< the best by this one is drawn
 };

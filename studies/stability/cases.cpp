@@ -121,8 +121,8 @@ Rows lobe_rows(LobeId lobe) {
 }
 
 Rows coefficient_rows(LobeId lobe) {
-  std::vector<std::pair<std::string, double>> exponents{
-      {"smallest n: 2^(-n/2) is nearly 1", kMinExponent}, {"(n+2)(n+4) overflows float32", 2e19}};
+  std::vector<std::pair<std::string, double>> exponents{{"smallest n: 2^(-n/2) is nearly 1", 1e-3},
+                                                        {"(n+2)(n+4) overflows float32", 2e19}};
   for (const double n : kExponents) exponents.emplace_back("n = 0.1 to 1e8", n);
   Rows rows;
   for (const ModelId model : all_models())

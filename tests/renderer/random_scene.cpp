@@ -48,10 +48,11 @@ Material material(Random& random) {
   if (has_paper_coefficient(m.highlight.lobe) && random.chance(0.25))
     m.highlight.normalisation = Normalisation::kPaper;
   const int sharpness = random.below(10);
-  m.highlight.exponent = sharpness == 0   ? random.log_between(kMinExponent, 1)
+  m.highlight.exponent = sharpness == 0   ? random.log_between(1e-3, 1)
                          : sharpness == 1 ? random.log_between(1e4, kMaxExponent)
                          : sharpness < 5  ? std::exp2(random.below(12))
                                           : random.log_between(1, 1e4);
+  if (m.highlight.exponent < 2e-3) m.highlight.exponent = 0;
   if (random.chance(0.4)) m.fresnel = Fresnel::kSchlick;
   m.specular_reflectance = colour(random);
   if (random.chance(0.5)) m.diffuse_reflectance = colour(random);

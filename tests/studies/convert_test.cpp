@@ -205,7 +205,7 @@ TEST(Rules, SayWhyTheyGiveNoHighlight) {
   EXPECT_EQ(row(to_ggx.rules, "Blender").because, "alpha 0 is a mirror");
   EXPECT_FALSE(row(to_ggx.rules, "Blender").errors);
   const auto back = convert({kGgxModel, model("phong_rdf"), 1, 1, Measure::kMax});
-  EXPECT_THAT(row(back.rules, "Walter").because, testing::HasSubstr("exponent 0 is outside"));
+  EXPECT_EQ(row(back.rules, "Walter").highlight->exponent, 0);
   const auto narrow = convert({kGgxModel, model("phong_rdf"), 1e-3, 1, Measure::kMax});
   EXPECT_EQ(row(narrow.rules, "Babylon").because, "the rule has no such exponent");
 }

@@ -9,7 +9,7 @@
 // radiance() is per unit irradiance normal to the beam, 1/sr, with N.L where the model has it: do not multiply by N.L again.
 // Fresnel's factor and the colour are yours.
 //
-// Promised, and tested against the library for exponents of 1e-3 to 1e8: in double, lobes to 1e-12 of their peak and coefficients
+// Promised, and tested against the library for exponents of 0 to 1e8: in double, lobes to 1e-12 of their peak and coefficients
 // to 1e-12 of themselves; in float, lobes to the error that `lobelia verify stability` allows float32.
 //
 // Made by `make headers` from Lobelia's renderer: edit that. Copyright (c) The Lobelia authors. SPDX-License-Identifier: MIT
@@ -29,9 +29,9 @@ namespace lobelia {
 namespace highlight {
 
 struct LobeParameters {
-  double exponent;  ///< n
+  double exponent;  ///< n; tiny for 0, by which closed forms cannot divide
   int order;        ///< k of a family of lobes: 2, 4, ... 1024 of cs_k; 2, 4, 8 or 16 of pk3.m, k = 2^m
-  LobeParameters(double n, int k = 0) : exponent(n), order(k) {}
+  LobeParameters(double n, int k = 0) : exponent(std::max(n, 1e-60)), order(k) {}
 };
 
 /// The angle that the lobe sees; s is 1 - its cosine.

@@ -72,7 +72,7 @@ LOBELIA_NAMESPACE v0 {
   /// Changes to a scene, and how to render it. An empty or missing value leaves the scene as it is.
   struct RenderSettings {
     std::string model, lobe, normalisation;  ///< names as in models(), lobes() and normalisations()
-    std::optional<double> exponent;          ///< n, 1e-3 to 1e8
+    std::optional<double> exponent;          ///< n, 0 to 1e8
     std::optional<int> width, height;        ///< pixels, 1 to 32768
     std::optional<int> samples;              ///< rays a pixel, 1 to 65536; 1 is the pixel's centre
     std::optional<std::uint64_t> seed;       ///< of the positions of more than one sample
@@ -197,7 +197,7 @@ LOBELIA_NAMESPACE v0 {
   LOBELIA_API std::vector<Model> models();
   LOBELIA_API std::vector<std::string> normalisations();
 
-  /// The lobe at `s` = 1 - cos(angle), 0 to 2, for the exponent n, 1e-3 to 1e8: 0 to 1, and 1 at s = 0. In double.
+  /// The lobe at `s` = 1 - cos(angle), 0 to 2, for the exponent n, 0 to 1e8: 0 to 1, and 1 at s = 0. In double.
   /// Throws Error(usage).
   LOBELIA_API double lobe_value(const std::string& lobe, double s, double exponent);
   /// The same for many values of `s`, which is quicker.

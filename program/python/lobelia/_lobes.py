@@ -49,7 +49,7 @@ class Lobe(_lobelia.Lobe):
     """
 
     def value(self, s: ArrayLike, n: ArrayLike) -> Any:
-        """The lobe at s (0 to 2) for exponents n (0.001 to 1e8), broadcast together.
+        """The lobe at s (0 to 2) for exponents n (0 to 1e8), broadcast together.
 
         Of float32 arrays the result is float32, by the SIMD kernels of the renderer. Otherwise it is float64, by the
         lobe in double precision. NaN gives NaN. Scalars give a scalar.

@@ -36,6 +36,8 @@ MODELS = {
                               lambda n: (1.063 * n + 1) / (8 * math.pi), smith=True),
 }
 
+FLAT = 1e-60  # for the exponent 0, where it divides
+
 # value: at s = 1 - cos(angle) < 1. node: the same as shader nodes. reach: the s where the lobe ends or has fallen to 4e-18.
 # k is the order of a family, or a formula as a tree.
 Lobe = namedtuple("Lobe", "value node reach")
@@ -44,7 +46,7 @@ LOBES = {
     # cos^k for another s.
     "cs": Lobe(lambda s, n, k: max(0.0, 1 - n * s / k) ** k,
                lambda nodes, s, n, k: nodes.cosine_lobe(nodes.math("MULTIPLY", n / k, s), k),
-               lambda n, k: k / n),
+               lambda n, k: k / max(n, FLAT)),
     # cos^k for another s, as 1 - u is the cubic.
     "pk": Lobe(lambda s, n, k: max(0.0, 1 - pk_fall(n, k, n * s)) ** k,
                lambda nodes, s, n, k: nodes.cosine_lobe(pk_fall_node(nodes, n, k, s), k),
@@ -52,12 +54,12 @@ LOBES = {
     "spherical_gaussian": Lobe(
         lambda s, n, k: math.exp(-n * s),
         lambda nodes, s, n, k: nodes.math("EXPONENT", nodes.math("MULTIPLY", -n, s)),
-        lambda n, k: 40 / n),
+        lambda n, k: 40 / max(n, FLAT)),
     "gauss": Lobe(
         lambda s, n, k: math.exp(-2 * n * math.asin(math.sqrt(s / 2)) ** 2),
         lambda nodes, s, n, k: nodes.math(
             "EXPONENT", nodes.math("MULTIPLY", -n, nodes.half_square_of_angle(s))),
-        lambda n, k: 40 / n),
+        lambda n, k: 40 / max(n, FLAT)),
     "schlick": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),
                     lambda nodes, s, n, k: schlick_node(nodes, s, n),
                     lambda n, k: 1.0),

@@ -15,7 +15,7 @@
 namespace lobelia {
 namespace {
 
-constexpr double kExponents[] = {1e-3, 0.7, 1, 5, 15.9, 16, 64, 333.3, 1024, 1e5, 1e8};
+constexpr double kExponents[] = {0, 1e-3, 0.7, 1, 5, 15.9, 16, 64, 333.3, 1024, 1e5, 1e8};
 
 /// visit(lobe) with each of the header's.
 template <class... Ls, class Visit>

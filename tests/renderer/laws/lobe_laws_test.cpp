@@ -54,8 +54,8 @@ TEST(EveryLobe, FallsInTheMiddleAsTheSameBellWhateverTheLobe) {
 
 // The integrals that each lobe states, against quadrature: moments, density, samples.
 
-constexpr double kAllExponents[] = {kMinExponent, 0.1, 0.9, 1,   1.1, 2,           15.9,
-                                    16,           54,  128, 1e3, 1e4, kMaxExponent};
+constexpr double kAllExponents[] = {kMinExponent, 1e-6, 1e-3, 0.1, 0.9, 1,   1.1,         2,
+                                    15.9,         16,   54,   128, 1e3, 1e4, kMaxExponent};
 constexpr double kLast = 1 - 0x1p-53;  ///< the largest of the numbers in [0, 1)
 
 void for_every_lobe(double n, auto&& f) {

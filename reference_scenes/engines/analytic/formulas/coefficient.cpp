@@ -19,7 +19,7 @@
 namespace lobelia::truth {
 namespace {
 
-/// The tail beyond a lobe this small adds nothing: the whole integral is more than 1/n.
+/// The tail beyond a lobe this small adds nothing: the whole integral is of the size of 1/n, or of 1 below n = 1.
 constexpr double kNothing = 1e-40;
 constexpr double kTolerance = 1e-22;  ///< of the last piece's error, of the whole
 
@@ -72,7 +72,7 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
   Big sum = 0;
   for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
     const Big& begin = ends[i - 1];
-    if (highest_from(begin) * exponent < kNothing) return normalised(sum);
+    if (highest_from(begin) * std::max(exponent, 1.0) < kNothing) return normalised(sum);
     sum += smooth(begin, ends[i]);
   }
   const Big last = ends[ends.size() - 2], piece = ends.back() - last;

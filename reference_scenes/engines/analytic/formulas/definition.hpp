@@ -18,8 +18,8 @@ Number lobe_definition(const LobeId& lobe, const Number& cosine, double exponent
 }
 
 /// A lobe is sampled over s with the density lobe times this, over its integral: 1 where the samples follow the lobe
-/// itself. Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator,
-/// and GGX from (1 + n s / 2)^-2.
+/// itself. Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator, or
+/// below n = 1 every s alike, and GGX from (1 + n s / 2)^-2.
 template <class Number>
 Number draw_factor(LobeId lobe, const Number& cosine, double exponent) {
   using std::acos, std::sin;
@@ -32,7 +32,9 @@ Number draw_factor(LobeId lobe, const Number& cosine, double exponent) {
     const Number drawn = Number(1) + n * s / Number(2), own = drawn + n * s * cosine / Number(2);
     return own * own / (drawn * drawn);
   }
-  return info(lobe).name == "schlick" ? Number(Number(1) / cosine) : Number(1);
+  if (info(lobe).name != "schlick") return Number(1);
+  return exponent > 1 ? Number(Number(1) / cosine)
+                      : Number(Number(1) + Number(exponent) * (Number(1) - cosine) / cosine);
 }
 
 }  // namespace lobelia
