@@ -197,6 +197,16 @@ TEST(PovFinishes, TakeWhatTheyBeginWithOverFromEarlierOnes) {
             "finish of line 6: phong_rdf 12\n");
 }
 
+TEST(Assets, MayHaveAFlatLobe) {
+  for (const auto& [suffix, content] :
+       {std::pair(".mtl", std::string("newmtl a\nNs 0\n")),
+        {".pov", "finish { phong 1 phong_size 0 }"},
+        {".xml", mitsuba("<bsdf type=\"phong\"><float name=\"exponent\" value=\"0\"/></bsdf>")}}) {
+    const FileMaterial material = read_as(suffix, content).materials.at(0);
+    EXPECT_TRUE(material.model && material.parameter == 0) << content;
+  }
+}
+
 TEST(Assets, LeaveOutNumbersThatAreNone) {
   for (const char* number : {"nan", "-1", "1e999", "inf", "-inf", "0x10", "1,5", "", "1 2"}) {
     const std::string n = number;

@@ -108,6 +108,12 @@ TEST(Best, IsTheParameterItselfForTheSameModel) {
   }
 }
 
+TEST(Best, KeepsAFlatLobeFlat) {
+  for (int measure = 0; measure < 4; ++measure)
+    for (const char* to : {"phong_rdf", "blinn_phong_rdf"})
+      EXPECT_EQ(best(model("phong_rdf"), 0, model(to), Measure(measure)), 0) << to << measure;
+}
+
 // ---- an implementation of its own: curves by the textbook, errors by sampling
 
 double plain_heightfield(double n, double x) {
@@ -223,7 +229,7 @@ TEST(Conversion, HasFiniteFiguresOverTheWholeRange) {
     }
   };
   for (const char* name : {"phong_rdf", "blinn_phong_heightfield"})
-    for (const double n : some_of(std::vector{1e-3, 1.0, 1e4, 1e8}))
+    for (const double n : some_of(std::vector{0.0, 1e-3, 1.0, 1e4, 1e8}))
       for (const char* to : {"ggx", "modified_blinn_phong"})
         expect_finite(convert({model(name), model(to), n, 1, Measure::kMax}));
   for (const double alpha : {1e-4, 0.3, 1.0})

@@ -89,26 +89,17 @@ class PovTokens {
   int line_ = 1;
 };
 
-/// The texts of values that stand in a finish, and remarks on it.
+/// The texts of values that stand in a finish.
 using Finish = std::map<std::string_view, std::string>;
 
-constexpr std::string_view kFinishWords[] = {"ambient",
-                                             "brilliance",
-                                             "conserve_energy",
-                                             "crand",
-                                             "diffuse",
-                                             "emission",
-                                             "fresnel",
-                                             "irid",
-                                             "metallic",
-                                             "phong",
-                                             "phong_size",
-                                             "reflection",
-                                             "reflection_exponent",
-                                             "roughness",
-                                             "specular",
-                                             "subsurface",
-                                             "use_alpha"};
+/// Between blanks.
+constexpr std::string_view kFinishWords =
+    " ambient brilliance conserve_energy crand diffuse emission fresnel irid metallic phong "
+    "phong_size reflection reflection_exponent roughness specular subsurface use_alpha ";
+
+bool is_finish_word(std::string_view token) {
+  return kFinishWords.find(fmt::format(" {} ", token)) != kFinishWords.npos;
+}
 
 class PovReader {
  public:
@@ -163,8 +154,7 @@ class PovReader {
   }
 
   static bool is_base(std::string_view token) {
-    return !token.empty() && token != "}" && token[0] != '#' &&
-           std::ranges::count(kFinishWords, token) == 0;
+    return !token.empty() && token != "}" && token[0] != '#' && !is_finish_word(token);
   }
 
   void read_values(Finish& finish) {
@@ -175,7 +165,7 @@ class PovReader {
       if (token == "{") ++depth;
       if (token[0] == '#') has_directives_ = true;
       if (depth > 0) continue;
-      if (std::ranges::count(kFinishWords, token) > 0) {
+      if (is_finish_word(token)) {
         word = token;
         finish[word].clear();
       } else if (token != "albedo" && token != "}" && finish[word].size() < kMostValue) {
