@@ -70,7 +70,7 @@ def test_s_out_of_range_is_named(s, dtype):
         lobelia.lobe("cs16").value(np.array([0.5, s], dtype), dtype(8))
 
 
-@pytest.mark.parametrize("n", [0, -1, 1e9, np.nan, np.inf])
+@pytest.mark.parametrize("n", [-1, 1e9, np.nan, np.inf])
 def test_an_exponent_out_of_range_is_named(n):
     for call in (
         lambda: lobelia.lobe("cs16").value(0.5, n),
@@ -79,7 +79,7 @@ def test_an_exponent_out_of_range_is_named(n):
         lambda: lobelia.coefficient("phong_rdf", "cosine", n),
         lambda: lobelia.albedo("phong_rdf", "cosine", n),
     ):
-        with pytest.raises(lobelia.UsageError, match="exponent .* is out of range; allowed: 0.001"):
+        with pytest.raises(lobelia.UsageError, match="exponent .* is out of range; allowed: 0 to"):
             call()
 
 
