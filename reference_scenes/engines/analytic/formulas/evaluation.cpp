@@ -55,10 +55,13 @@ struct Finish {
   }
 };
 
-template <class Real>
-std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& stop) {
+/// `reflectance(met, arrival)` is the radiance per irradiance normal to the beam, without mirrors.
+template <class Real, class Reflectance>
+std::vector<Rgb> trace(const Scene& scene, const std::function<bool()>& stop,
+                       const Reflectance& reflectance) {
+  if (const std::string why = why_not_evaluated(scene); !why.empty())
+    throw Error(ExitCode::kInput, why);
   const Tracer<Real> tracer(scene);
-  const std::vector<Finish> finishes(scene.materials.begin(), scene.materials.end());
   const int width = scene.film.width;
   std::vector<Rgb> picture(std::size_t(width) * scene.film.height);
   oneapi::tbb::parallel_for(0, scene.film.height, [&](int y) {
@@ -66,13 +69,13 @@ std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& st
     for (int x = 0; x < width; ++x) {
       Rgb sum, weight{1, 1, 1};
       tracer.follow(x + Real(0.5), y + Real(0.5), [&](const Met<Real>& met) {
-        const Finish& finish = finishes[met.material];
+        const Material& material = scene.materials[met.material];
         for (std::size_t light = 0; light < scene.lights.size(); ++light)
           if (const auto arrival = tracer.arrival(light, met))
             sum = sum + weight * (double(arrival->falloff) * strength(scene.lights[light])) *
-                            finish.reflectance(met, *arrival);
-        const Rgb mirror = finish.material.mirror_reflectance;
-        weight = weight * reflected(finish.material.fresnel, mirror, mirror_f90(mirror),
+                            reflectance(met, *arrival);
+        const Rgb mirror = material.mirror_reflectance;
+        weight = weight * reflected(material.fresnel, mirror, mirror_f90(mirror),
                                     dot(met.normal, met.to_eye));
       });
       picture[std::size_t(y) * width + x] = sum;
@@ -80,6 +83,16 @@ std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& st
   });
   return picture;
 }
+
+template <class Real>
+std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& stop) {
+  const std::vector<Finish> finishes(scene.materials.begin(), scene.materials.end());
+  return trace<Real>(scene, stop, [&](const Met<Real>& met, const Arrival<Real>& arrival) {
+    return finishes[met.material].reflectance(met, arrival);
+  });
+}
+
+Vec3 rounded(const Vector<double>& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
@@ -102,10 +115,14 @@ std::string why_not_evaluated(const Scene& scene) {
 }
 
 std::vector<Rgb> evaluate(const Scene& scene, Digits digits, const std::function<bool()>& stop) {
-  if (const std::string why = why_not_evaluated(scene); !why.empty())
-    throw Error(ExitCode::kInput, why);
   return digits == Digits::kFifty ? evaluate_in<Big>(scene, stop)
                                   : evaluate_in<double>(scene, stop);
+}
+
+std::vector<Rgb> shade(const Scene& scene, const Reflectance& reflectance) {
+  return trace<double>(scene, {}, [&](const Met<double>& met, const Arrival<double>& arrival) {
+    return reflectance(rounded(met.normal), rounded(met.to_eye), rounded(arrival.to_light));
+  });
 }
 
 Image as_picture(const std::vector<Rgb>& radiance, const Film& film) {

@@ -25,6 +25,12 @@ std::string why_not_evaluated(const Scene& scene);
 std::vector<Rgb> evaluate(const Scene& scene, Digits digits,
                           const std::function<bool()>& stop = {});
 
+/// Radiance per unit irradiance normal to the beam, for unit vectors away from the surface; N.L is above 0.
+using Reflectance = std::function<Rgb(Vec3 normal, Vec3 to_eye, Vec3 to_light)>;
+/// The pixels of evaluate() in double, with `reflectance` in place of every material's highlight and diffuse base. Calls it
+/// from several threads. Throws as evaluate() does.
+std::vector<Rgb> shade(const Scene& scene, const Reflectance& reflectance);
+
 /// The radiance of evaluate() as a picture, rounded to float32.
 Image as_picture(const std::vector<Rgb>& radiance, const Film& film);
 
