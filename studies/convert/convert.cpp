@@ -47,36 +47,6 @@ Best parameter_of_width(ShadingModel model, double f0, double half_width) {
   return {std::exp(narrow), false};
 }
 
-/// Looks over the whole range first, because an error may have several valleys.
-Best parameter_of_least(const std::function<double(double)>& error, ShadingModel model) {
-  const double min = least_searched(model), max = model.max();
-  constexpr double kStep = 0.1, kEnd = 1e-6;  // of the logarithm
-  const double from = std::log(min), to = std::log(max);
-  const auto error_of = [&](double t) { return error(std::exp(t)); };
-  std::vector<double> samples, errors;
-  for (double t = from; t < to; t += kStep) samples.push_back(t);
-  samples.push_back(to);
-  for (const double t : samples) errors.push_back(error_of(t));
-  // The floor of a valley is below its lowest sample by a smaller share than this.
-  constexpr double kNear = 1.2;
-  const double smallest = *std::ranges::min_element(errors);
-  double best = from, least = kInfinity;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, samples.size() - 1);
-    if (errors[i] > std::min({errors[before], errors[after], kNear * smallest})) continue;
-    const auto [t, value] =
-        boost::math::tools::brent_find_minima(error_of, samples[before], samples[after], 40);
-    for (const auto& [at, reached] : {std::pair(t, value), {samples[i], errors[i]}})
-      if (reached < least) {
-        best = at;
-        least = reached;
-      }
-  }
-  if (best - from < kEnd || error(model.min()) <= least) return {model.min(), true};
-  if (to - best < kEnd) return {max, true};
-  return {std::exp(best), false};
-}
-
 records::ConvertedHighlight highlight_of(const Curve& curve) {
   records::ConvertedHighlight record;
   record.model = curve.model().name();
@@ -172,15 +142,44 @@ std::vector<records::ChartSeries> curves_of(const Request& request, const Curve&
 
 }  // namespace
 
+Best parameter_of_least(const std::function<double(double)>& error, double min, double max) {
+  constexpr double kStep = 0.1, kEnd = 1e-6;  // of the logarithm
+  const double from = std::log(min), to = std::log(max);
+  const auto error_of = [&](double t) { return error(std::exp(t)); };
+  std::vector<double> samples, errors;
+  for (double t = from; t < to; t += kStep) samples.push_back(t);
+  samples.push_back(to);
+  for (const double t : samples) errors.push_back(error_of(t));
+  // The floor of a valley is below its lowest sample by a smaller share than this.
+  constexpr double kNear = 1.2;
+  const double smallest = *std::ranges::min_element(errors);
+  double best = from, least = kInfinity;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, samples.size() - 1);
+    if (errors[i] > std::min({errors[before], errors[after], kNear * smallest})) continue;
+    const auto [t, value] =
+        boost::math::tools::brent_find_minima(error_of, samples[before], samples[after], 40);
+    for (const auto& [at, reached] : {std::pair(t, value), {samples[i], errors[i]}})
+      if (reached < least) {
+        best = at;
+        least = reached;
+      }
+  }
+  if (best - from < kEnd) return {min, true};
+  if (to - best < kEnd) return {max, true};
+  return {std::exp(best), false};
+}
+
 Best best_parameter(const Request& request, Measure measure) {
   const Curve from(request.from, request.parameter, request.f0);
   if (measure == Measure::kWidth)
     return parameter_of_width(request.to, request.f0, from.half_width());
-  return parameter_of_least(
-      [&](double parameter) {
-        return distance(measure, from, Curve(request.to, parameter, request.f0));
-      },
-      request.to);
+  const auto error = [&](double parameter) {
+    return distance(measure, from, Curve(request.to, parameter, request.f0));
+  };
+  const double least = least_searched(request.to), flat = request.to.min();
+  const Best best = parameter_of_least(error, least, request.to.max());
+  return best.parameter == least || error(flat) <= error(best.parameter) ? Best{flat, true} : best;
 }
 
 records::ConversionBest convert_to_best(const Request& request) {

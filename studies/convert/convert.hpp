@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,8 @@ struct Best {
   bool at_end;
 };
 Best best_parameter(const Request& request, Measure measure);
+/// The parameter with the smallest error. Looks over the whole range first, because an error may have several valleys.
+Best parameter_of_least(const std::function<double(double)>& error, double min, double max);
 
 records::Conversion convert(const Request& request);
 
