@@ -14,6 +14,7 @@
 #include "base/records/cost.hpp"
 #include "base/records/farm.hpp"
 #include "base/records/lobe_search.hpp"
+#include "base/records/measured.hpp"
 #include "base/records/models.hpp"
 #include "base/records/pages.hpp"
 #include "base/records/paper.hpp"
@@ -43,9 +44,10 @@ constexpr auto kKinds =
     kinds_of<Agreement, Bench, Blob, Blobs, BsdfCheck, Cell, Comparison, ComparisonSet, Content,
              Conversion, ConversionTable, ConvertedMaterials, Cost, Engines, Failure, Farm,
              FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus, KnownHashes,
-             GalleryList, HighlightTables, LobeSearch, Models, Plan, Profile, Profiles, Project,
-             Reference, Render, Result, Scene, Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun,
-             VerifyHighlights, VerifyPaper, VerifyProfiles, VerifyStability, VerifyVerdicts>();
+             GalleryList, HighlightTables, LobeSearch, MeasuredFits, Models, Plan, Profile,
+             Profiles, Project, Reference, Render, Result, Scene, Sensitivity, ShaderCheck,
+             SlurmDoctor, SlurmRun, VerifyHighlights, VerifyPaper, VerifyProfiles, VerifyStability,
+             VerifyVerdicts>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -118,14 +120,14 @@ const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
     for (auto* const define :
-         {define_agreement_tables,  define_bench_tables,        define_bsdf_check_tables,
-          define_chart_tables,      define_cluster_tables,      define_comparison_tables,
-          define_conversion_tables, define_cost_tables,         define_farm_tables,
-          define_highlight_tables,  define_lobe_search_tables,  define_model_tables,
-          define_page_tables,       define_paper_tables,        define_profile_tables,
-          define_project_tables,    define_render_tables,       define_result_tables,
-          define_scene_tables,      define_shader_check_tables, define_stability_tables,
-          define_verdict_tables,    define_verify_tables})
+         {define_agreement_tables,  define_bench_tables,       define_bsdf_check_tables,
+          define_chart_tables,      define_cluster_tables,     define_comparison_tables,
+          define_conversion_tables, define_cost_tables,        define_farm_tables,
+          define_highlight_tables,  define_lobe_search_tables, define_measured_tables,
+          define_model_tables,      define_page_tables,        define_paper_tables,
+          define_profile_tables,    define_project_tables,     define_render_tables,
+          define_result_tables,     define_scene_tables,       define_shader_check_tables,
+          define_stability_tables,  define_verdict_tables,     define_verify_tables})
       define(all);
     return all;
   }();
