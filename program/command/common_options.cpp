@@ -20,8 +20,6 @@ constexpr CommonOption kCommonOptions[] = {
 constexpr OldOption kOldOptions[] = {
     {"compare", "--noise-seed", "--seed N"},
     {"compare", "--histogram", "--diff-image ERRORS.exr --diff-of flip.ldr"},
-    {"convert", "-o", "--json FILE"},
-    {"convert", "--output", "--json FILE"},
     {"search", "-o", "--json FILE"},
     {"search", "--output", "--json FILE"},
     {"reference", "--witness", "--shading NAME"},

@@ -3,15 +3,17 @@
 #include "base/records/record.hpp"
 #include "program/command/commands.hpp"
 #include "program/command/common_options.hpp"
+#include "program/command/convert_measured.hpp"
 #include "program/command/options.hpp"
 #include "program/command/output_files.hpp"
 #include "renderer/ggx.hpp"
+#include "studies/measured/measured.hpp"
 
 namespace lobelia::cli {
 namespace {
 
 struct ConvertArguments {
-  std::string file, from, to, measure = "max", json, svg;
+  std::string file, directory, from, to, measure = "max", json, svg;
   std::optional<double> exponent, alpha, roughness, f0;
   WorkLimits limits;
 };
@@ -75,6 +77,14 @@ void run_convert_file(const ConvertArguments& options) {
     throw Error(
         ExitCode::kUsage,
         "a FILE says the highlights: leave out --from, --exponent, --alpha, --roughness, --svg");
+  if (measured::is_measured(options.file)) {
+    if (!options.to.empty() || options.f0)
+      throw Error(ExitCode::kUsage,
+                  "a measured FILE is fitted by every model: leave out --to, --f0");
+    return convert_measured(options.file, options.directory, options.json);
+  }
+  if (!options.directory.empty())
+    throw Error(ExitCode::kUsage, "--output is for a measured FILE, of MERL or RGL");
   std::optional<conversion::ShadingModel> to;
   if (!options.to.empty()) to = shading_model(options.to, "--to");
   OutputFiles outputs;
@@ -101,11 +111,14 @@ void run_convert(const ConvertArguments& options) {
 void add_convert(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "convert",
-      "Convert an exponent to a GGX roughness and back, between two models, or a file's materials");
+      "Convert an exponent to a GGX roughness and back, between two models, or the materials of a "
+      "file");
   auto options = std::make_shared<ConvertArguments>();
   OptionGroup from(*command, "From");
-  from.add("FILE", options->file, "",
-           "Materials: .mtl, .gltf, .glb, .pov, .inc, or .xml of Mitsuba or Lobelia")
+  from.add(
+          "FILE", options->file, "",
+          "Materials: .mtl, .gltf, .glb, .pov, .inc, or .xml of Mitsuba or Lobelia; a measured one: "
+          "MERL's .binary, RGL's .bsdf")
       ->check(not_empty());
   from.add("--from", options->from, "",
            fmt::format("Model: {}; otherwise blinn_phong_heightfield for an exponent, else ggx",
@@ -124,8 +137,14 @@ void add_convert(CLI::App& app, ExitCode&) {
          "Reflectance head on; ggx has Schlick's Fresnel factor for it. Default: a FILE's, or 1")
       ->check(between(1e-3, 1));
   OptionGroup output(*command, "Output");
-  add_json(output, options->json,
-           "conversion, of a range conversion-table, of a FILE converted-materials");
+  add_json(
+      output, options->json,
+      "conversion, of a range conversion-table, of a FILE converted-materials, of a measured one "
+      "measured-fits");
+  add_common(
+      output, "--output", options->directory,
+      ": of a measured FILE, its pictures beside those of the three best models, and their scenes",
+      "DIR");
   output.add(
       "--svg", options->svg, "FILE|-",
       "Write a chart of both highlights, or of the range, with the rules of thumb; with - likewise");
@@ -143,6 +162,16 @@ void add_convert(CLI::App& app, ExitCode&) {
       "  lobelia convert materials.mtl --to ggx\n"
       "  lobelia convert --roughness 0.5 --to modified_blinn_phong --measure width\n"
       "  lobelia convert --from phong_rdf --exponent 20 --to blinn_phong_rdf --svg both.svg\n"
+      "  lobelia convert gold-paint.binary -o gold-paint\n"
+      "\n"
+      "A measured FILE is fitted by every model with every lobe over a diffuse base, with reflectances from 0 to 1 and\n"
+      "an exponent from 1 to 1e6. The error is that of Ngan et al. 2005: of f_r N.L, weighted by solid\n"
+      "angle, where light and eye are within 80 degrees of the normal. Highlights count most in it. 'rms %'\n"
+      "is its root mean square of the measurement's, 'max %' the largest one of the largest value. 'dE2000'\n"
+      "is the mean CIEDE2000 over the spheres head_on and oblique_45 and 'max' its largest, with a white\n"
+      "diffuse surface as white. Printed are each model's best lobe and cosine; the record has all fits.\n"
+      "A MERL file has a value for each cell, so that small highlights of its pictures have steps. Of an RGL\n"
+      "file the eye takes the place of its theta_i.\n"
       "\n"
       "Exit codes: 0 done, 2 usage, 3 a file cannot be read, 4 an output cannot be written.");
   command->callback([options] { options->limits.run([&] { run_convert(*options); }); });

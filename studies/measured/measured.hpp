@@ -26,6 +26,8 @@ inline constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20;
 inline constexpr double kMostValue = 1e12;
 
 /// Reads by the ending: .binary is MERL, .bsdf is RGL. Throws Error(kInput) with one line, Error(kUsage) for another
+/// Whether the file's name is that of MERL (.binary) or RGL (.bsdf).
+bool is_measured(const std::filesystem::path& path);
 /// ending.
 MeasuredBrdf read_measured(const std::filesystem::path& path);
 

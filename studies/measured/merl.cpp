@@ -97,13 +97,15 @@ MeasuredBrdf parse_merl(const std::string& bytes, const std::string& where) {
   return brdf;
 }
 
-MeasuredBrdf read_measured(const std::filesystem::path& path) {
+bool is_measured(const std::filesystem::path& path) {
   const std::string ending = lower_case(path.extension().string());
-  if (ending != ".binary" && ending != ".bsdf")
-    throw Error(ExitCode::kUsage, "{}: allowed are .binary (MERL) and .bsdf (RGL)",
-                printable_path(path.string()));
+  return ending == ".binary" || ending == ".bsdf";
+}
+
+MeasuredBrdf read_measured(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, kMostBytes);
-  return (ending == ".bsdf" ? parse_rgl : parse_merl)(bytes, printable_path(path.string()));
+  const bool is_rgl = lower_case(path.extension().string()) == ".bsdf";
+  return (is_rgl ? parse_rgl : parse_merl)(bytes, printable_path(path.string()));
 }
 
 }  // namespace lobelia::measured

@@ -3,6 +3,7 @@
 
 #include "tests/json.hpp"
 #include "tests/program/run_lobelia.hpp"
+#include "tests/studies/merl_file.hpp"
 #include "tests/test.hpp"
 
 namespace lobelia {
@@ -90,6 +91,47 @@ TEST_F(ConvertCommand, ARoughnessIsTheRootOfAlpha) {
   };
   EXPECT_EQ(best("--roughness 0.5"), best("--alpha 0.25"));
   EXPECT_NE(best("--roughness 0.5"), best("--alpha 0.5"));
+}
+
+TEST_F(ConvertCommand, FitsAMeasuredMaterialBesideItsGroundTruth) {
+  const fs::path file = directory_.path() / "blue paint.binary";
+  write_file(file, merl_bytes([](Vec3 to_eye, Vec3 to_light) {
+               const double lobe = 72 / (8 * kPi) * std::pow(normalize(to_eye + to_light).z, 70);
+               return Rgb{0.1 + 0.3 * lobe, 0.1 + 0.3 * lobe, 0.2 + 0.3 * lobe};
+             }));
+  const auto result = run("'blue paint.binary' -o fits --json record.json");
+  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, StartsWith("blue paint.binary (MERL), "));
+  const Json record = Json::parse(read_file(directory_.path() / "record.json", 1 << 20));
+  EXPECT_EQ(record["kind"], "measured-fits");
+  EXPECT_EQ(record["fits"][0]["lobe"], "cosine");
+  EXPECT_NEAR(double(record["fits"][0]["exponent"]), 70, 1e-3);
+  EXPECT_NEAR(double(record["fits"][0]["diffuse"][2]), 0.2 * kPi, 1e-4);
+  // The scene beside a fit's picture renders to that picture, and the fit is near to the measurement.
+  for (const char* scene : {"head_on", "oblique_45"}) {
+    SCOPED_TRACE(scene);
+    const std::string name = std::string("/") + scene;
+    const auto compared = run_shell(
+        "\"$LOBELIA\" render fits/fit_1" + name + ".xml -o again.exr && cmp again.exr fits/fit_1" +
+            name + ".exr && \"$LOBELIA\" compare --fail max_rel_peak=0.05 fits/fit_1" + name +
+            ".exr fits/measured" + name + ".exr --no-default-limits",
+        directory_.path());
+    EXPECT_EQ(compared.exit_code, 0) << compared.output_tail;
+    EXPECT_TRUE(
+        fs::exists(directory_.path() / ("fits/png/measured_" + std::string(scene) + ".png")));
+  }
+}
+
+TEST_F(ConvertCommand, RefusesOtherFilesThanMeasuredMaterials) {
+  write_file(directory_.path() / "short.binary", "abc");
+  write_file(directory_.path() / "short.bsdf", "abc");
+  expect_one_line(run("none.binary -o fits"), 3, "none.binary");
+  expect_one_line(run("short.binary -o fits"), 3, "is no MERL file");
+  expect_one_line(run("short.bsdf"), 3, "is no tensor file");
+  expect_one_line(run("short.txt"), 2, "allowed are .binary (MERL) and .bsdf (RGL)");
+  expect_one_line(run("short.bsdf --to ggx"), 2, "FILE");
+  expect_one_line(run("short.bsdf --json short.bsdf"), 2, "short.bsdf");
+  EXPECT_FALSE(fs::exists(directory_.path() / "fits"));
 }
 
 TEST_F(ConvertCommand, RefusesWrongValuesInOneLine) {

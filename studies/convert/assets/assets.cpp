@@ -124,7 +124,7 @@ Assets read_assets(const std::filesystem::path& path) {
   if (suffix == ".xml") return read_xml(text(), path);
   throw Error(
       ExitCode::kUsage,
-      "{}: the materials of this file are not known; allowed: .mtl, .gltf, .glb, .pov, .inc, .xml",
+      "{}: the materials of this file are not known; allowed: .mtl, .gltf, .glb, .pov, .inc, .xml, .binary, .bsdf",
       printable_path(path.string()));
 }
 
