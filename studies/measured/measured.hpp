@@ -25,10 +25,9 @@ inline constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20;
 /// No number of a BRDF is so large, and sums of their squares stay finite.
 inline constexpr double kMostValue = 1e12;
 
-/// Reads by the ending: .binary is MERL, .bsdf is RGL. Throws Error(kInput) with one line, Error(kUsage) for another
 /// Whether the file's name is that of MERL (.binary) or RGL (.bsdf).
 bool is_measured(const std::filesystem::path& path);
-/// ending.
+/// Reads .bsdf as RGL, every other file as MERL. Throws Error(kInput) with one line.
 MeasuredBrdf read_measured(const std::filesystem::path& path);
 
 /// From the bytes of a file; `where` names it in messages. Both throw Error(kInput).
