@@ -112,10 +112,10 @@ TEST(Fit, FindsTheExponentOfASampledBlinnPhong) {
     const records::MeasuredFit& best = fits.fits.front();
     SCOPED_TRACE(n);
     EXPECT_EQ(best.model, "blinn_phong_heightfield");
-    // 6e-8 measured: the table's values are kept as float32.
-    EXPECT_NEAR(best.exponent / n, 1, 1e-5);
-    expect_near(best.diffuse, diffuse, 1e-5);
-    expect_near(best.specular, specular, 1e-5);
+    // 9e-8 measured for the exponent, 2e-8 for the others: the table's values are kept as float32.
+    EXPECT_NEAR(best.exponent / n, 1, 1e-6);
+    expect_near(best.diffuse, diffuse, 1e-6);
+    expect_near(best.specular, specular, 1e-6);
     EXPECT_LT(best.rms_of_measured, 1e-6);
     EXPECT_GT(fits.fits.back().rms_of_measured, 0.05);
     EXPECT_FALSE(best.is_end_of_range);
@@ -131,9 +131,9 @@ TEST(Fit, FindsTheAlphaOfASampledGgx) {
                                  "made");
     const Highlight kinds[] = {kind("microfacet_smith", "ggx"), kind("modified_phong", "cosine")};
     const records::MeasuredFit best = fit(brdf, kinds).fits.front();
-    EXPECT_NEAR(best.alpha.value_or(0) / alpha, 1, 1e-5);
-    expect_near(best.specular, {0.7, 0.7, 0.7}, 1e-5);
-    expect_near(best.diffuse, {0.1, 0.1, 0.1}, 1e-5);
+    EXPECT_NEAR(best.alpha.value_or(0) / alpha, 1, 1e-6);  // 2e-8 measured
+    expect_near(best.specular, {0.7, 0.7, 0.7}, 1e-6);
+    expect_near(best.diffuse, {0.1, 0.1, 0.1}, 1e-6);
   }
 }
 
@@ -286,7 +286,7 @@ TEST(Rgl, WarpsByTheIntegralsOfTheDensity) {
           return std::lerp(slice(0, a, b) / totals[0], slice(1, a, b) / totals[1], theta);
         },
         u, v);
-    EXPECT_NEAR(found->r, x, 2e-5);  // 3e-6 measured
+    EXPECT_NEAR(found->r, x, 2e-5);  // 2e-6 measured
     EXPECT_NEAR(found->g, y, 2e-5);
     EXPECT_NEAR(found->b, 0.5, 1e-6);
     ++compared;
@@ -316,7 +316,8 @@ TEST(Rgl, EqualsTheMicrofacetModelOfItsDistribution) {
     const double c = std::cos(theta);
     const double expected =
         ggx_d(kAlpha, std::cos(u * u * kRightAngle)) / (4 * c * (1 + lambda(kAlpha, c)));
-    EXPECT_NEAR(2 * brdf.radiance(to->to_eye, to->to_light)->b / expected, 1, 1e-3);
+    EXPECT_NEAR(2 * brdf.radiance(to->to_eye, to->to_light)->b / expected, 1,
+                1e-4);  // 2e-5 measured
   }
 }
 
