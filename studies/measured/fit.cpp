@@ -12,7 +12,6 @@
 #include "renderer/frame.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/render.hpp"
-#include "renderer/scene/scene_io.hpp"
 #include "studies/convert/convert.hpp"
 
 namespace lobelia::measured {
@@ -251,10 +250,17 @@ records::MeasuredFits fit(const MeasuredBrdf& brdf, std::span<const Highlight> k
 }
 
 std::vector<NamedScene> canonical_scenes() {
-  std::vector<NamedScene> scenes;
-  for (const char* name : {"head_on", "oblique_45"})
-    scenes.push_back({name, read_scene(fmt::format("reference_scenes/scenes/{}.xml", name))});
-  return scenes;
+  Scene sphere;
+  sphere.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
+  sphere.materials = {{"highlight", {}, {1, 1, 1}, {}}};
+  sphere.spheres = {{{0, 0, 0}, 1, 0}};
+  const auto lit_along = [&](Vec3 direction) {
+    Scene lit = sphere;
+    lit.lights = {DirectionalLight{direction, {1, 1, 1}}};
+    return lit;
+  };
+  return {{"head_on", lit_along({0, 0, -1})},
+          {"oblique_45", lit_along({-0.5, -0.5, -0.70710678118654752})}};
 }
 
 Scene with_fit(Scene scene, const records::MeasuredFit& fit) {

@@ -34,7 +34,8 @@ struct NamedScene {
   std::string name;
   Scene scene;
 };
-/// The spheres head_on and oblique_45. Throws as read_scene().
+/// The spheres of reference_scenes/scenes/head_on.xml and oblique_45.xml, without a file: these are found in a copy of the
+/// repository or an installation only.
 std::vector<NamedScene> canonical_scenes();
 /// The scene with the fit as the material of everything.
 Scene with_fit(Scene scene, const records::MeasuredFit& fit);

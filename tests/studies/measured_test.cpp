@@ -1,7 +1,8 @@
 // Readers and fits of measured materials, on files that are made here from closed forms.
 #include "base/system/error.hpp"
 #include "base/words/constants.hpp"
-#include "renderer/frame.hpp"
+#include "lobelia_paths.hpp"
+#include "renderer/scene/scene_io.hpp"
 #include "studies/measured/fit.hpp"
 #include "tests/studies/merl_file.hpp"
 #include "tests/test.hpp"
@@ -155,6 +156,18 @@ TEST(MeasuredPicture, EqualsTheClosedFormOfALambertian) {
     EXPECT_NEAR(middle[2] / middle[0], albedo.b / albedo.r, 1e-5) << one.name;
     EXPECT_EQ(picture.pixel(0, 0)[0], 0) << one.name;
     EXPECT_EQ(with_fit(one.scene, fit).materials.front().diffuse_reflectance, albedo);
+  }
+}
+
+TEST(CanonicalScenes, EqualTheirFiles) {
+  records::MeasuredFit fit;
+  fit.model = "phong_rdf";
+  fit.lobe = "cosine";
+  fit.exponent = 10;
+  for (const NamedScene& one : canonical_scenes()) {
+    const Scene read =
+        read_scene(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/" + one.name + ".xml");
+    EXPECT_EQ(scene_to_xml(with_fit(one.scene, fit)), scene_to_xml(with_fit(read, fit)));
   }
 }
 
