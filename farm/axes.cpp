@@ -115,10 +115,16 @@ void turn_light(Scene& scene, double degrees) {
     if (!is_environment(light)) lights.push_back(&light);
   const auto lamp = lights.size() == 1 ? find_lamp(*lights[0]) : std::nullopt;
   if (!lamp)
-    throw std::runtime_error(
-        "the axis 'angle' turns the one directional, point or spot light of a scene, and this scene has others");
+    throw std::runtime_error(fmt::format(
+        "the axis 'angle' turns the one directional, point or spot light of a scene, and this scene has {}",
+        lights.empty()       ? "none"
+        : lights.size() == 1 ? "one with a size"
+                             : fmt::format("{} lights", lights.size())));
   const Vec3 target = scene.camera.target, eye = normalize(scene.camera.origin - target);
   const Vec3 from = lamp->is_distant ? -lamp->direction : lamp->position - target;
+  if (!(length(from) > 0))
+    throw std::runtime_error(
+        "the axis 'angle' turns a light about the camera's target, and this scene has it there");
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   Vec3 aside = from - dot(from, eye) * eye;
   if (length(aside) < 1e-9 * length(from)) aside = frame.right + frame.up;
@@ -251,6 +257,13 @@ std::pair<std::string, std::string> conflict_of(const Grid& grid) {
     const auto found = std::ranges::find_if(axis->values, is);
     return found == axis->values.end() ? nullptr : &*found;
   };
+  for (const char* other : {"lobe", "normalisation"})
+    if (find(other) && first(find("model"), [](const AxisValue& v) { return v.value == kGgx; }))
+      return {
+          "model",
+          fmt::format(
+              "'{}', which has a lobe and an exact normalisation of its own, beside an axis '{}'",
+              kGgx, other)};
   if (find("lobe")) {
     if (const AxisValue* both = first(find("normalisation"), [](const AxisValue& v) {
           return v.value.find(':') != v.value.npos;
@@ -258,9 +271,6 @@ std::pair<std::string, std::string> conflict_of(const Grid& grid) {
       return {"normalisation",
               fmt::format("LOBE:NORMALISATION '{}' beside an axis 'lobe'; allowed there: {}",
                           both->value, join(normalisation_names()))};
-    if (first(find("model"), [](const AxisValue& v) { return v.value == kGgx; }))
-      return {"model",
-              fmt::format("'{}', which has a lobe of its own, beside an axis 'lobe'", kGgx)};
   }
   for (const auto& [one, other] : {std::pair{"roughness", "exponent"}, {"angle", "light"}})
     if (find(one) && find(other))

@@ -215,7 +215,7 @@ std::string_view angle_name(LobeAngle angle) {
 
 std::string_view meaning(Normalisation normalisation) {
   return normalisation == Normalisation::kExact
-             ? "from the integral itself: energy 1 at normal incidence"
+             ? "from the integral itself, which it makes 1"
              : "the constant as the paper prints it, misprints included";
 }
 

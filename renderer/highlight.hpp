@@ -36,7 +36,7 @@ inline constexpr std::string_view kFormulaLobe = "expression";
 
 /// The source of the coefficient in front of the lobe.
 enum class Normalisation : std::uint8_t {
-  kExact,  ///< from the integral itself: energy 1 at normal incidence
+  kExact,  ///< from the integral itself, which it makes 1
   kPaper,  ///< as the paper prints it for that model and lobe
 };
 

@@ -27,11 +27,11 @@ void run_export(const ExportArguments& options) {
     set_chosen_model(highlight, model, "model");
     request.models.push_back(highlight.model);
   }
-  if (const auto lobe = options.lobe.lobe())
-    highlight.lobe = *lobe;
-  else if (options.models.size() > 1 && highlight.lobe == *find_lobe(kGgx))
-    throw Error(ExitCode::kUsage, "{} has a lobe of its own; export it alone, or add --lobe {}",
-                kGgx, kGgx);
+  if (const auto lobe = options.lobe.lobe()) highlight.lobe = *lobe;
+  if (std::ranges::count(options.models, kGgx) > 0 &&
+      (options.models.size() > 1 || highlight.lobe != *find_lobe(kGgx)))
+    throw Error(ExitCode::kUsage, "{} has a lobe of its own; export it alone, without --lobe",
+                kGgx);
   request.lobe = highlight.lobe;
   request.normalisation =
       chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);

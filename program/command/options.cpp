@@ -141,10 +141,12 @@ void SceneOverrides::add_to(CLI::App& command) {
   lobe_.add_to(group);
   group.add("--normalisation", normalisation_, "",
             fmt::format("Coefficient: {}", join(normalisation_names())));
-  group.add("--exponent", exponent_, "",
-            fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent));
-  group.add("--roughness", roughness_, "",
-            fmt::format("Roughness of GGX, {} to 1, in place of the exponent", kLeastRoughness));
+  auto* exponent = group.add("--exponent", exponent_, "",
+                             fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent));
+  group
+      .add("--roughness", roughness_, "",
+           fmt::format("Roughness of GGX, {} to 1, in place of the exponent", kLeastRoughness))
+      ->excludes(exponent);
   group.add("--width", width_, "", "Width of the picture in pixels");
   group.add("--height", height_, "", "Height of the picture in pixels");
   add_common(group, "--samples", samples_);
@@ -158,6 +160,8 @@ void SceneOverrides::apply(Scene& scene) const {
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const highlight : highlights) {
     if (model_) set_chosen_model(*highlight, *model_, "--model");
+    if (lobe && model_ == kGgx && *lobe != highlight->lobe)
+      throw Error(ExitCode::kUsage, "--model {} has a lobe of its own; leave --lobe out", kGgx);
     if (lobe) highlight->lobe = *lobe;
     if (normalisation_)
       highlight->normalisation =

@@ -209,6 +209,11 @@ void add_render(CLI::App& app, ExitCode& code) {
       "--accuracy", options->accuracy, "X|de2000=X",
       "Choose the cheapest lobe, precision and number of samples for this largest error of "
       "the peak, 1e-3, or this CIEDE2000 of 99 % of the pixels, de2000=1 (docs/cost.md)");
+  // An empty text, too, is refused, which a script gives whose variable is not set.
+  accuracy->check([](const std::string& text) {
+    accuracy::parse_accuracy(text);
+    return std::string();
+  });
   accuracy->excludes(precision)->excludes(target_error)->excludes(time_limit);
   group
       .add_choice("--accuracy-check", options->accuracy_check, {"truth", "none"},

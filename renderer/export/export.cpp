@@ -92,7 +92,7 @@ std::string normalisation_note(const Highlight& highlight) {
                "// meant to make this 1:\n//   {}.",
                kPaperMinExponent, kPaperMaxExponent, info(highlight.model).integral) +
            quarter;
-  return "The energy is 1 at normal incidence: the coefficient makes this 1 for the lobe\n//   " +
+  return "The coefficient makes this 1 for the lobe:\n//   " +
          std::string(info(highlight.model).integral) + "." + quarter;
 }
 

@@ -201,8 +201,11 @@ class SceneReader {
   }
 
   void read_roughness(const Values& values, pugi::xml_node material, Highlight& highlight) {
-    const bool by_alpha = bool(values["alpha"].node);
-    if (by_alpha == bool(values["roughness"].node))
+    const auto is_given = [&](const char* name) {
+      return bool(material.find_child_by_attribute("name", name));
+    };
+    const bool by_alpha = is_given("alpha");
+    if (by_alpha == is_given("roughness"))
       source_.error(material, by_alpha ? "<bsdf type=\"ggx\"> has roughness and alpha; allowed: one"
                                        : "<bsdf type=\"ggx\"> needs roughness, or alpha");
     highlight.exponent = by_alpha ? exponent_of_alpha(values.number("alpha"))

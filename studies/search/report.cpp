@@ -45,7 +45,7 @@ std::string answer(const records::LobeSearch& found, const Request& request) {
   if (!request.error && !request.price) {
     std::string text;
     for (const std::string& sentence : found.answers) text += sentence + "\n";
-    return text + "Code: the same with --error, or lobelia export.\n\n";
+    return text + (text.empty() ? "" : "Code: the same with --error, or lobelia export.\n\n");
   }
   const auto chosen = std::ranges::find(found.lobes, found.chosen, &records::SearchedLobe::name);
   if (chosen != found.lobes.end()) {
@@ -79,9 +79,10 @@ std::string answer(const records::LobeSearch& found, const Request& request) {
     return fmt::format("No lobe of the family '{}' was found with {} operations or fewer.\n\n",
                        found.family, most_price(request));
   return fmt::format(
-      "No lobe of at most {} operations is within {}. The best possible is {}: {}.\n\n",
-      most_price(request), error_text(*request.error), error_text(error_of(*best, found.metric)),
-      best->name);
+      "No lobe of the family '{}' with at most {} operations is within {}. The best possible is {}: "
+      "{}.\n\n",
+      found.family, most_price(request), error_text(*request.error),
+      error_text(error_of(*best, found.metric)), best->name);
 }
 
 }  // namespace

@@ -289,6 +289,8 @@ records::LobeSearch search(const Request& request) {
   ErrorTimes prices;
   prices.cost_unit = "operations";
   for (const records::SearchedLobe& lobe : found.lobes) {
+    // The paper's and Schlick's are of no family, and answers go by the largest error.
+    if (lobe.code.empty() || request.metric != "max") continue;
     TimedError& point = prices.points.emplace_back();
     point.name = fmt::format("{}, {} a value", lobe.name, short_time_text(lobe.seconds.median));
     point.cost = lobe.price;

@@ -390,6 +390,12 @@ TEST(Cells, TurnTheLightToTheirAngleFromTheEye) {
   }
   EXPECT_THAT(error_of(axis("scene", kSceneFiles + "two_lights.xml") + axis("angle", "45")),
               testing::HasSubstr("the one directional, point or spot light"));
+  const TemporaryDirectory directory;
+  Scene at_target = read_scene(kSceneFiles + "point_light.xml");
+  std::get<PointLight>(at_target.lights[0]).position = at_target.camera.target;
+  write_file(directory.path() / "t.xml", scene_to_xml(at_target));
+  EXPECT_THAT(error_of(axis("scene", (directory.path() / "t.xml").string()) + axis("angle", "45")),
+              testing::HasSubstr("has it there"));
 }
 
 TEST(Cells, TakeGgxByItsRoughness) {
@@ -402,6 +408,15 @@ TEST(Cells, TakeGgxByItsRoughness) {
     EXPECT_EQ(info(h.model).name, values["model"] == "ggx" ? "microfacet_smith" : "phong_rdf");
     EXPECT_EQ(info(h.lobe).name, values["model"] == "ggx" ? "ggx" : "cosine");
   }
+}
+
+TEST(GridReader, RefusesAxesThatSetTheSameThing) {
+  for (const auto& [one, other] :
+       {std::pair{axis("model", "ggx"), axis("lobe", "cosine")},
+        {axis("model", "ggx"), axis("normalisation", "paper")},
+        {axis("exponent", "16"), axis("roughness", "0.5")},
+        {axis("angle", "45"), axis("light", kSceneFiles + "head_on.xml")}})
+    EXPECT_THAT(error_of(kScene + one + other), testing::HasSubstr("beside an axis")) << one;
 }
 
 TEST(Cells, ShowTheValuesOfTheirAxes) {

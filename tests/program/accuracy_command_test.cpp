@@ -43,7 +43,7 @@ TEST(RenderAccuracy, FailsIfTheErrorIsOutOfReach) {
 
 TEST(RenderAccuracy, RefusesOptionsChosenByItself) {
   const TemporaryDirectory directory;
-  for (const char* text : {"0", "-1", "nan", "ten", "de2000=", "flip=1"}) {
+  for (const char* text : {"", "0", "-1", "nan", "ten", "de2000=", "flip=1"}) {
     const auto result = render(directory, "head_on.xml", {"--accuracy", text});
     EXPECT_EQ(result.exit_code, 2) << text << result.output_tail;
     EXPECT_THAT(result.output_tail, HasSubstr("de2000=X"));

@@ -33,8 +33,8 @@ TEST_F(SearchCommand, PrintsTheBestLobeIfNoneMeetsTheRequest) {
   const auto result = run("--error 1e-4 --operations 5");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.output_tail,
-              StartsWith("No lobe of at most 5 operations is within 0.0001. The best possible is "
-                         "0.0035"));
+              StartsWith("No lobe of the family 'all' with at most 5 operations is within 0.0001. "
+                         "The best possible is 0.0035"));
   // Between what is proved of pk3.2 and what is proved of all lobes like it.
   const auto undecided = run("--error 4.785e-4 --family pk > all.txt; head -n 14 all.txt");
   EXPECT_THAT(undecided.output_tail, StartsWith("Use pk3.3, "));

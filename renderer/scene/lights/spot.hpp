@@ -3,6 +3,8 @@
 #ifndef LOBELIA_RENDERER_SCENE_LIGHTS_SPOT_HPP
 #define LOBELIA_RENDERER_SCENE_LIGHTS_SPOT_HPP
 
+#include <fmt/core.h>
+
 #include "renderer/scene/lights/light.hpp"
 
 namespace lobelia {
@@ -41,7 +43,9 @@ struct SpotLight {
     else
       source.error("", "direction is zero; allowed: any other vector");
     if (!(beam_width < cutoff_angle))
-      source.error("", "beam_width is not below cutoff_angle, where the light ends");
+      source.error(
+          "", fmt::format("beam_width {:g} is not below cutoff_angle {:g}, where the light ends",
+                          beam_width, cutoff_angle));
   }
 
   Rgb strength() const { return intensity; }
