@@ -110,9 +110,7 @@ TileRenderer::TileRenderer(const Scene& scene, const Plan& plan)
     : prepared_(scene, plan),
       random_(prepared_.any_sized || plan.depth.glossy > 0 || scene.camera.aperture_radius > 0),
       negative_weight_(prepared_.filter.negative_weight()),
-      invisible_(effects::Antialiasing::kBlack * peak_bound(scene, scene.lights)) {
-  if (plan.first_samples < scene.sampler.sample_count) small_ = find_small_highlights(scene);
-}
+      invisible_(effects::Antialiasing::kBlack * peak_bound(scene, scene.lights)) {}
 
 float* TileRenderer::pixel(int x, int y, float* rgb, int first_row) const {
   return rgb + 3 * (std::size_t(y - first_row) * std::size_t(prepared_.scene.film.width) +
@@ -170,19 +168,8 @@ Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb
   return spread;
 }
 
-/// Whether the filter brings something of a small highlight to the pixel. The first samples may all miss it.
-bool TileRenderer::takes_small_highlight(const PixelSample& pixel) const {
-  constexpr double kWidths = 4;
-  const int reach = reach_of(prepared_.scene.film.filter);
-  return std::ranges::any_of(small_, [&](const SmallHighlight& highlight) {
-    const double far = reach + 1 + kWidths * highlight.length;
-    return std::abs(highlight.x - (pixel.x + 0.5)) < far &&
-           std::abs(highlight.y - (pixel.y + 0.5)) < far;
-  });
-}
-
 /// Takes a few samples of every pixel in the tile and around it. Takes the rest only where these show more than an
-/// even surface within the filter's reach, or a small highlight may be.
+/// even surface within the filter's reach.
 void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
                                        Workspace& workspace) const {
   const Film& film = prepared_.scene.film;
@@ -208,7 +195,7 @@ void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb
   for (const PixelSample& p : own) {
     const std::size_t i = index(p.x, p.y);
     const double mean = std::abs(brightness(sums[i].mean(negative_weight_)));
-    if (around[i].surface == Seen::kSeveral || takes_small_highlight(p) ||
+    if (around[i].surface == Seen::kSeveral ||
         around[i].most - around[i].least >
             std::max(effects::Antialiasing::kSame * mean, invisible_)) {
       needing.push_back(p);

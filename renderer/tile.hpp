@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/pictures/image.hpp"
-#include "renderer/small_highlights.hpp"
 #include "renderer/waves/waves.hpp"
 
 namespace lobelia {
@@ -82,7 +81,6 @@ class TileRenderer {
             const Take& take_result) const;
   Spread render_everywhere(const Tile& tile, int samples, float* rgb, int first_row,
                            Workspace& workspace) const;
-  bool takes_small_highlight(const PixelSample& pixel) const;
   void render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
                            Workspace& workspace) const;
 
@@ -90,9 +88,8 @@ class TileRenderer {
 
   waves::PreparedScene prepared_;
   bool random_;
-  double negative_weight_;             ///< of the filter
-  std::vector<SmallHighlight> small_;  ///< empty where all samples are taken everywhere
-  double invisible_;                   ///< a difference of radiance that is too small to see
+  double negative_weight_;  ///< of the filter
+  double invisible_;        ///< a difference of radiance that is too small to see
 };
 
 }  // namespace lobelia
