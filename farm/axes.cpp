@@ -264,14 +264,12 @@ std::pair<std::string, std::string> conflict_of(const Grid& grid) {
           fmt::format(
               "'{}', which has a lobe and an exact normalisation of its own, beside an axis '{}'",
               kGgx, other)};
-  if (find("lobe")) {
-    if (const AxisValue* both = first(find("normalisation"), [](const AxisValue& v) {
-          return v.value.find(':') != v.value.npos;
-        }))
-      return {"normalisation",
-              fmt::format("LOBE:NORMALISATION '{}' beside an axis 'lobe'; allowed there: {}",
-                          both->value, join(normalisation_names()))};
-  }
+  const AxisValue* both = first(
+      find("normalisation"), [](const AxisValue& v) { return v.value.find(':') != v.value.npos; });
+  if (find("lobe") && both)
+    return {"normalisation",
+            fmt::format("LOBE:NORMALISATION '{}' beside an axis 'lobe'; allowed there: {}",
+                        both->value, join(normalisation_names()))};
   for (const auto& [one, other] : {std::pair{"roughness", "exponent"}, {"angle", "light"}})
     if (find(one) && find(other))
       return {one,

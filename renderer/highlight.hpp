@@ -178,7 +178,7 @@ constexpr double exponent_of_alpha(double alpha) {
 constexpr double exponent_of_roughness(double roughness) {
   return exponent_of_alpha(roughness * roughness);
 }
-/// Of GGX in a scene; the exponents are those of kMinExponent to kMaxExponent.
+/// The least of a GGX in a scene: smaller ones would have an exponent above kMaxExponent.
 inline constexpr double kLeastRoughness = 0.012, kLeastAlpha = 0.000144;
 /// The largest factor that shadowing puts on a lobe times N.L; at grazing angles. 1 for a model without.
 double largest_shadowing(ModelId model, double exponent);

@@ -24,8 +24,8 @@ OperationCount textbook_operations(LobeId lobe);
 /// From the three unit vectors to s, and the product with N.L where the model has it.
 OperationCount operations(ModelId model);
 
-/// In multiplications of float32: 1 for a multiply-add, 6 for a division. The one table of prices, by which `search`,
-/// `render --accuracy` and `cost` choose, so that they choose the same on every machine; they measure times beside it.
+/// In multiplications of float32: 1 for a multiply-add, 6 for a division. The one table of prices, by which `search` and
+/// `render --accuracy` choose, so that they choose the same on every machine; times are measured beside it.
 double price(const OperationCount& count, Precision precision = Precision::kFloat32);
 /// The price of a lobe's value. A formula is evaluated node by node, whatever the precision.
 double price(const LobeId& lobe, Precision precision = Precision::kFloat32);

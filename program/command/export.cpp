@@ -22,17 +22,19 @@ void run_export(const ExportArguments& options) {
   ShaderExport request;
   request.language =
       chosen(options.language, "--language", shader_language_names(), find_shader_language);
-  Highlight highlight{{}, *find_lobe("cosine")};
+  Highlight highlight;
   for (const std::string& model : options.models) {
     set_chosen_model(highlight, model, "model");
     request.models.push_back(highlight.model);
   }
-  if (const auto lobe = options.lobe.lobe()) highlight.lobe = *lobe;
-  if (std::ranges::count(options.models, kGgx) > 0 &&
-      (options.models.size() > 1 || highlight.lobe != *find_lobe(kGgx)))
-    throw Error(ExitCode::kUsage, "{} has a lobe of its own; export it alone, without --lobe",
-                kGgx);
-  request.lobe = highlight.lobe;
+  request.lobe = options.lobe.lobe().value();
+  if (std::ranges::count(options.models, kGgx) > 0) {
+    const LobeId ggx = *find_lobe(kGgx);
+    if (options.models.size() > 1 || (options.lobe.is_given() && request.lobe != ggx))
+      throw Error(ExitCode::kUsage, "{} has a lobe of its own; export it alone, without --lobe",
+                  kGgx);
+    request.lobe = ggx;
+  }
   request.normalisation =
       chosen(options.normalisation, "--normalisation", normalisation_names(), find_normalisation);
   request.exponent = options.exponent;
@@ -64,7 +66,7 @@ void add_export(CLI::App& app, ExitCode&) {
       .add("--language", options->language, "",
            fmt::format("Language: {}", join(shader_language_names())))
       ->required();
-  options->lobe.add_to(group);
+  options->lobe.add_to(group, "cosine");
   group
       .add("--normalisation", options->normalisation, "",
            fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))

@@ -91,6 +91,7 @@ class LobeOption {
   void add_to(OptionGroup& group, const std::string& usual = "");
   /// A formula without a name will do. None if the user left both out and there is no usual one. Throws Error(kUsage).
   std::optional<LobeId> lobe() const;
+  bool is_given() const { return name_ || formula_; }
 
  private:
   std::optional<std::string> name_, formula_;

@@ -38,7 +38,7 @@ records::Conversion convert(const Request& request);
 records::ConvertedHighlight convert_from(const Request& request);
 /// The best parameter of `request.to` by `request.measure`, with its errors.
 records::ConversionBest convert_to_best(const Request& request);
-/// What the rules of thumb between the two models make of the parameter.
+/// The parameter of the target by each rule of thumb between the two models, with its errors.
 std::vector<records::ConversionRule> convert_by_rules(const Request& request);
 
 /// The materials of a file (studies/convert/assets/assets.hpp): each in the model `to` by `measure` and by rules of thumb, or

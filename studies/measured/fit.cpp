@@ -126,7 +126,7 @@ struct Size {
   double rms, largest;
 };
 
-/// Of what value_at(sample, channel) gives.
+/// The size of the values that value_at(sample, channel) gives.
 Size size_of(const std::vector<Sample>& samples, const auto& value_at) {
   double sum = 0, weights = 0, largest = 0;
   for (std::size_t i = 0; i < samples.size(); ++i)

@@ -280,7 +280,7 @@ records::LobeSearch search(const Request& request) {
   for (std::size_t i = 0; i < times.size(); ++i)
     found.lobes[i].seconds = {times[i].median, times[i].spread};
   const int most = is_enough ? dearest : most_price(request);
-  // Of all prices Schlick's is shown, which has no bound.
+  // Schlick's lobe, which has no bound, is shown whatever its price.
   const bool asked = request.error || request.price;
   std::erase_if(found.lobes, [&](const records::SearchedLobe& lobe) {
     return lobe.price > most && (asked || lobe.bound);

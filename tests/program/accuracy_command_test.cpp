@@ -17,7 +17,8 @@ TEST(RenderAccuracy, ExplainsItsChoiceWithTheErrorReached) {
   const TemporaryDirectory directory;
   const auto result = render(directory, "oblique_45.xml", {"--accuracy", "1e-1"});
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  for (const char* words : {"accuracy 0.1: use pk3.1 in ", "the cheapest of", "so it holds", "formulas"})
+  for (const char* words :
+       {"accuracy 0.1: use pk3.1 in ", "the cheapest of", "so it holds", "formulas"})
     EXPECT_THAT(result.output_tail, HasSubstr(words));
   const Json record = read_json(directory.path() / "x.json");
   const Json& accuracy = record["accuracy"];

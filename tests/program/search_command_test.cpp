@@ -26,6 +26,7 @@ TEST_F(SearchCommand, FindsTheNearestForAPrice) {
   const auto nearest = run("--operations 5 --exponents 64 --family pk --certificates");
   EXPECT_EQ(nearest.exit_code, 0);
   EXPECT_THAT(nearest.output_tail, StartsWith("Use pk3.1, "));
+  EXPECT_THAT(nearest.output_tail, HasSubstr(" a value, 5 operations: max = "));
   EXPECT_THAT(nearest.output_tail, HasSubstr("pk3.1: no lobe of this shape has a smaller error"));
 }
 
@@ -38,6 +39,7 @@ TEST_F(SearchCommand, PrintsTheBestLobeIfNoneMeetsTheRequest) {
   // Between what is proved of pk3.2 and what is proved of all lobes like it.
   const auto undecided = run("--error 4.785e-4 --family pk > all.txt; head -n 14 all.txt");
   EXPECT_THAT(undecided.output_tail, StartsWith("Use pk3.3, "));
+  EXPECT_THAT(undecided.output_tail, HasSubstr(" a value, 7 operations"));
   EXPECT_THAT(undecided.output_tail,
               HasSubstr("pk3.2 is cheaper, and whether a lobe of its shape"));
   const auto other = run("--error 1e-3 --operations 7 --family rk");

@@ -237,11 +237,10 @@ TEST(AnExport, HasTheCoefficientsFunctionButTakesItAsAnArgument) {
     for (const ModelId model : request.models) {
       // GGX times its cosine has the integral of cos^n.
       const std::string_view integral = info(model).integral;
-      if (lobe == "ggx" && integral.find("x/2") == integral.npos &&
-          integral.find("cos") != integral.npos)
-        continue;
+      const bool as_cosine = lobe == "ggx" && integral.find("x/2") == integral.npos &&
+                             integral.find("cos") != integral.npos;
       const std::string name = coefficient_name_of(request, model);
-      EXPECT_EQ(name.empty(), !closed_form);
+      EXPECT_EQ(name.empty(), !closed_form && !as_cosine) << info(model).name;
       EXPECT_THAT(shader_text(request), Not(HasSubstr(" = " + name + "(")));
     }
     if (!closed_form) {

@@ -48,17 +48,11 @@ namespace lobelia::HWY_NAMESPACE {
 
 inline void sample_light(const PointLight& light, std::size_t count, const Vec3Chunk& point,
                          LightSamples& drawn) {
-  const Lanes3 position = broadcast(light.position), normal = broadcast(light.normal);
+  const Lanes3 normal = broadcast(light.normal);
   const bool falls_with_cosine = light.lamp().has_normal();
-  for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    Lanes3 l;
-    Lanes factor, distance;
-    to_point_light(position, load(point, i), l, factor, distance);
-    store(l, drawn.to_light, i);
-    if (falls_with_cosine) factor = factor * positive_part(Lanes(0.0) - dot(normal, l));
-    factor.store(drawn.factor + i);
-    distance.store(drawn.distance + i);
-  }
+  sample_point(light.position, count, point, drawn, [&](Lanes factor, Lanes3 to_light) HWY_ATTR {
+    return falls_with_cosine ? factor * positive_part(Lanes(0.0) - dot(normal, to_light)) : factor;
+  });
 }
 
 }  // namespace lobelia::HWY_NAMESPACE

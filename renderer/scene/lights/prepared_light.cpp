@@ -23,6 +23,21 @@ HWY_INLINE Lanes clamp(Lanes x, Lanes low, Lanes high) {
   return Lanes(hn::Min(hn::Max(x.v, low.v), high.v));
 }
 
+/// Light from a point to each of some points: with_direction(factor, to_light) is the factor with what depends on the
+/// direction.
+template <class WithDirection>
+HWY_INLINE void sample_point(Vec3 position, std::size_t count, const Vec3Chunk& point,
+                             LightSamples& drawn, const WithDirection& with_direction) {
+  for (std::size_t i = 0; i < count; i += Lanes::count()) {
+    Lanes3 to_light;
+    Lanes factor, distance;
+    to_point_light(broadcast(position), load(point, i), to_light, factor, distance);
+    store(to_light, drawn.to_light, i);
+    with_direction(factor, to_light).store(drawn.factor + i);
+    distance.store(drawn.distance + i);
+  }
+}
+
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

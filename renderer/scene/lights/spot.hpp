@@ -1,5 +1,5 @@
-// Light from a point in a cone: full within the beam, and from there to the cutoff as a smooth step of the cosine, which is
-// how POV-Ray's spotlight of tightness 0, Blender's and three.js' spots fall.
+// Light from a point in a cone: full within the beam, and from there to the cutoff as a smooth step of the cosine, as
+// POV-Ray's spotlight of tightness 0 falls.
 #ifndef LOBELIA_RENDERER_SCENE_LIGHTS_SPOT_HPP
 #define LOBELIA_RENDERER_SCENE_LIGHTS_SPOT_HPP
 
@@ -70,19 +70,14 @@ namespace lobelia::HWY_NAMESPACE {
 
 inline void sample_light(const SpotLight& light, std::size_t count, const Vec3Chunk& point,
                          LightSamples& drawn) {
-  const Lanes3 position = broadcast(light.position), direction = broadcast(light.direction);
+  const Lanes3 direction = broadcast(light.direction);
   const SpotCone cone{light.beam_width, light.cutoff_angle};
   const Lanes least(cone.least_cosine()), step(1 / cone.cosine_step()), one(1.0);
-  for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    Lanes3 l;
-    Lanes factor, distance;
-    to_point_light(position, load(point, i), l, factor, distance);
-    store(l, drawn.to_light, i);
-    const Lanes along = Lanes(0.0) - dot(direction, l);
+  sample_point(light.position, count, point, drawn, [&](Lanes factor, Lanes3 to_light) HWY_ATTR {
+    const Lanes along = Lanes(0.0) - dot(direction, to_light);
     const Lanes t = clamp((along - least) * step, Lanes(0.0), one);
-    (factor * t * t * (Lanes(3.0) - Lanes(2.0) * t)).store(drawn.factor + i);
-    distance.store(drawn.distance + i);
-  }
+    return factor * t * t * (Lanes(3.0) - Lanes(2.0) * t);
+  });
 }
 
 }  // namespace lobelia::HWY_NAMESPACE

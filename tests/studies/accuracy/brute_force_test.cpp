@@ -60,7 +60,7 @@ std::string fault_of(Scene scene, Random& random) {
   const Image truth = render(scene, exact).image;
   if (!(peak_value(truth) > 0)) return "";
   const Choice choice = choose(scene, asked);
-  // What the truth by formulas and the storage as float32 may add.
+  // The truth by formulas and the storage as float32 may add a little.
   const double enough =
       asked.unit == Accuracy::Unit::kCiede2000 ? asked.value * 0.998 : asked.value * 0.998 - 4e-7;
   for (const Way& way : all_ways(scene, asked.unit, truth))
